@@ -1,0 +1,34 @@
+# softkin: from published data to a calibrated forward kinematics. `snakemake --cores 2` is all it takes.
+#
+#     retrieve -> prepare -> tune -> fit -> predict -> score -> tables
+#                                                        \--> track (MLflow)
+from pathlib import Path
+
+from snakemake.utils import min_version
+
+min_version("9.0")
+
+
+configfile: Path(workflow.basedir) / "config" / "config.yaml"
+configfile: Path(workflow.basedir) / "config" / "datasets.yaml"
+
+
+include: "workflow/rules/common.smk"
+include: "workflow/rules/retrieve.smk"
+include: "workflow/rules/prepare.smk"
+include: "workflow/rules/tune.smk"
+include: "workflow/rules/fit.smk"
+include: "workflow/rules/predict.smk"
+include: "workflow/rules/score.smk"
+include: "workflow/rules/tables.smk"
+include: "workflow/rules/track.smk"
+
+
+rule all:
+    default_target: True
+    input:
+        final_output(),
+
+
+onsuccess:
+    print(Path(HEADLINE).read_text(encoding="utf-8"))

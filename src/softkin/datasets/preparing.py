@@ -1,0 +1,71 @@
+"""Prepare: a retrieved file -> the tidy table in mm, and a description of it."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from softkin.datasets import READERS
+from softkin.datasets.table import content_hash, schema, to_table, write_table
+from softkin.files import write_json
+from softkin.interface import SUBSETS, TRAIN, Samples, SoftkinError, coordinate_columns, informative_coordinates
+
+logger = logging.getLogger("softkin")
+
+MM_PER_UNIT = {"m": 1000.0, "cm": 10.0, "mm": 1.0, "in": 25.4}
+
+
+def prepare(
+    raw: str | Path,
+    *,
+    dataset: str,
+    source: Mapping[str, Any],
+    table: str | Path,
+    description: str | Path,
+    max_rows: int | None = None,
+) -> None:
+    """Read `raw` as its entry `source` says, check it, write the `table` (Parquet, mm) and the `description` (JSON).
+
+    `max_rows` keeps the first rows of each subset only (for trying the pipeline out); None keeps all.
+
+    Raises:
+        SoftkinError: the file is not what its entry in config/datasets.yaml says.
+    """
+    samples = READERS[source["format"]](
+        raw, dataset=dataset, n_commands=source["n_commands"], n_markers=source["n_markers"]
+    )
+    sizes = {subset: len(rows) for subset, rows in samples.items()}
+    expected = source.get("rows", sizes)
+    for subset in SUBSETS:
+        if sizes[subset] != expected[subset]:
+            raise SoftkinError(
+                f"dataset '{dataset}', subset '{subset}': {sizes[subset]} rows, but config/datasets.yaml registers "
+                f"{expected[subset]}\n  in {raw}\n  mend: correct `rows` of the entry, or the file"
+            )
+    factor = MM_PER_UNIT[source["position_unit"]]
+    samples = {
+        subset: Samples(rows.commands[:max_rows], rows.positions[:max_rows] * factor)
+        for subset, rows in samples.items()
+    }
+    frame = to_table(samples)
+    schema(source["n_commands"], source["n_markers"]).validate(frame)
+    write_table(frame, table)
+
+    moving = informative_coordinates(samples[TRAIN].positions)
+    names = coordinate_columns(source["n_markers"])
+    write_json(
+        description,
+        {
+            "dataset": dataset,
+            "title": source["title"],
+            "sha256": source["sha256"],
+            "n_commands": source["n_commands"],
+            "n_markers": source["n_markers"],
+            "rows": {subset: len(rows) for subset, rows in samples.items()},
+            "content_sha256": {subset: content_hash(rows) for subset, rows in samples.items()},
+            "constant_coordinates": [name for name, moves in zip(names, moving, strict=True) if not moves],
+        },
+    )
+    logger.info("%d rows, %d commands, %d coordinates", len(frame), source["n_commands"], 3 * source["n_markers"])

@@ -1,0 +1,1 @@
+"""Our own scikit-learn estimators: what no library offers."""

@@ -1,0 +1,115 @@
+"""Fit one model on `train`, predict every subset."""
+
+from __future__ import annotations
+
+import logging
+import statistics
+import time
+import warnings
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import joblib
+import numpy as np
+import pandas as pd
+from sklearn.compose import TransformedTargetRegressor
+from sklearn.exceptions import ConvergenceWarning
+from sklearn.pipeline import make_pipeline
+from sklearn.preprocessing import StandardScaler
+from threadpoolctl import threadpool_limits
+
+from softkin.datasets.table import read_subset
+from softkin.estimators.position_scaler import PositionScaler
+from softkin.files import replacing, write_json
+from softkin.interface import SUBSETS, TEST, TRAIN, Array, ModelSpec, Params, Samples, coordinate_columns
+from softkin.job import stopwatch
+
+logger = logging.getLogger("softkin")
+
+
+def kinematic_model(spec: ModelSpec, params: Params, *, skip_constant: bool, seed: int, threads: int) -> Any:
+    """Unfitted regressor commands -> positions in mm; both are standardised inside, by what it is fitted on."""
+    return TransformedTargetRegressor(
+        make_pipeline(StandardScaler(), spec.build(params, seed, threads)),
+        transformer=PositionScaler(skip_constant),
+        check_inverse=False,
+    )
+
+
+def fit_quietly(estimator: Any, samples: Samples, threads: int) -> int:
+    """Fit in place on at most `threads` threads; return how many solvers stopped at their iteration bound.
+
+    The bounds are deliberate (no fit may run away), so their warnings are counted, not printed.
+    """
+    with warnings.catch_warnings(record=True) as caught, threadpool_limits(threads):
+        warnings.simplefilter("always")
+        estimator.fit(samples.commands, samples.positions)
+    stopped = [w for w in caught if issubclass(w.category, ConvergenceWarning)]
+    for message in {str(w.message) for w in caught if w not in stopped}:
+        logger.warning("%s", message)
+    return len(stopped)
+
+
+def fit(
+    table: str | Path,
+    *,
+    spec: ModelSpec,
+    params: Params,
+    skip_constant: bool,
+    seed: int,
+    threads: int,
+    model: str | Path,
+    record: str | Path,
+) -> None:
+    """Fit on `train` of `table`; write the fitted `model` (joblib) and a `record` (JSON) of what it took."""
+    samples = read_subset(table, TRAIN)
+    estimator = kinematic_model(spec, params, skip_constant=skip_constant, seed=seed, threads=threads)
+    with stopwatch() as watch:
+        stopped = fit_quietly(estimator, samples, threads)
+    with replacing(model) as temporary:
+        joblib.dump(estimator, temporary, compress=3)
+    write_json(
+        record,
+        {
+            "params": params,
+            "n_train": len(samples),
+            "solvers_at_iteration_bound": stopped,
+            "fit_seconds": watch.seconds,
+            "fit_cpu_seconds": watch.cpu_seconds,
+        },
+    )
+    logger.info("fitted on %d rows in %.1f s", len(samples), watch.seconds)
+
+
+def predict(table: str | Path, *, model: str | Path, threads: int, predictions: str | Path, record: str | Path) -> None:
+    """Write the `predictions` (Parquet: subset, m1_x.. in mm, rows as in `table`) of every subset, and how long
+    `test` takes a row (median of five).
+    """
+    estimator = joblib.load(model)
+    frames = []
+    with threadpool_limits(threads):
+        for subset in SUBSETS:
+            commands = read_subset(table, subset).commands
+            frames.append(_frame(subset, np.asarray(estimator.predict(commands))))
+            if subset == TEST:
+                microseconds = _microseconds_per_row(estimator, commands)
+    with replacing(predictions) as temporary:
+        pd.concat(frames, ignore_index=True).to_parquet(temporary, index=False)
+    write_json(record, {"predict_us_per_row": microseconds})
+
+
+def _frame(subset: str, positions: Array) -> pd.DataFrame:
+    columns: Sequence[str] = coordinate_columns(positions.shape[1] // 3)
+    frame = pd.DataFrame(positions, columns=columns)
+    frame.insert(0, "subset", subset)
+    return frame
+
+
+def _microseconds_per_row(estimator: Any, commands: Array, repeats: int = 5) -> float:
+    seconds = []
+    for _ in range(repeats):
+        start = time.perf_counter()
+        estimator.predict(commands)
+        seconds.append(time.perf_counter() - start)
+    return 1e6 * statistics.median(seconds) / len(commands)

@@ -1,0 +1,1 @@
+"""Metrics: of predicted positions (point), later of intervals."""

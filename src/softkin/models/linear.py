@@ -1,0 +1,41 @@
+"""Linear regression: ordinary least squares on the commands, or on polynomial features of them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from softkin.interface import ModelSpec, Params
+
+if TYPE_CHECKING:
+    from optuna.trial import BaseTrial
+
+
+def build(params: Params, seed: int, threads: int) -> Any:
+    """OLS; `degree` (default 1) expands the commands, `interaction_only` leaves out pure powers."""
+    from sklearn.linear_model import LinearRegression
+    from sklearn.pipeline import make_pipeline
+    from sklearn.preprocessing import PolynomialFeatures
+
+    features = PolynomialFeatures(
+        params.get("degree", 1), interaction_only=params.get("interaction_only", False), include_bias=False
+    )
+    return make_pipeline(features, LinearRegression())
+
+
+def search_space(trial: BaseTrial) -> Params:
+    """Degree 1 to 8: at 704 rows and two commands, 44 features."""
+    return {
+        "degree": trial.suggest_int("degree", 1, 8),
+        "interaction_only": trial.suggest_categorical("interaction_only", [False, True]),
+    }
+
+
+SPEC = ModelSpec(
+    name="lr",
+    title="Linear regression",
+    family="linear",
+    build=build,
+    paper_params={},
+    search_space=search_space,
+    first_trials=tuple({"degree": degree, "interaction_only": False} for degree in (1, 2, 3)),
+)

@@ -1,0 +1,49 @@
+"""XGBoost: histogram boosting, one tree per coordinate and round."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from softkin.interface import ModelSpec, Params
+
+if TYPE_CHECKING:
+    from optuna.trial import BaseTrial
+
+
+def build(params: Params, seed: int, threads: int) -> Any:
+    """XGBRegressor(**params)."""
+    from xgboost import XGBRegressor
+
+    return XGBRegressor(**params, random_state=seed, n_jobs=threads)
+
+
+def search_space(trial: BaseTrial) -> Params:
+    """Up to 600 rounds; depth, shrinkage and the three usual regularisers."""
+    return {
+        "n_estimators": trial.suggest_int("n_estimators", 100, 600, step=50),
+        "learning_rate": trial.suggest_float("learning_rate", 0.03, 0.3, log=True),
+        "max_depth": trial.suggest_int("max_depth", 2, 8),
+        "subsample": trial.suggest_float("subsample", 0.4, 1.0),
+        "min_child_weight": trial.suggest_float("min_child_weight", 0.5, 20.0, log=True),
+        "reg_lambda": trial.suggest_float("reg_lambda", 1e-3, 10.0, log=True),
+    }
+
+
+SPEC = ModelSpec(
+    name="xgb",
+    title="XGBoost",
+    family="ensemble",
+    build=build,
+    paper_params={},
+    search_space=search_space,
+    first_trials=(
+        {
+            "n_estimators": 100,
+            "learning_rate": 0.3,
+            "max_depth": 6,
+            "subsample": 1.0,
+            "min_child_weight": 1.0,
+            "reg_lambda": 1.0,
+        },
+    ),
+)

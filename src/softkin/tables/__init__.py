@@ -1,0 +1,1 @@
+"""Tables across datasets: ours, and ours beside the published ones."""

@@ -1,0 +1,82 @@
+"""All tables of results/tables, from the scores of every dataset."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from softkin.files import read_json, replacing, write_text
+from softkin.tables.headline import headline
+from softkin.tables.paper_layout import SUBSET_TITLES, PaperTable, comparison_table, subset_table
+from softkin.tables.published import compare, compare_columns, read_published, summary
+from softkin.tables.selection import selection
+
+
+def build_tables(
+    *,
+    point: Sequence[str | Path],
+    markers: Sequence[str | Path],
+    descriptions: Sequence[str | Path],
+    parameters: Sequence[str | Path],
+    studies: Sequence[tuple[str, str]],
+    sources: Mapping[str, Mapping[str, Any]],
+    model_titles: Mapping[str, str],
+    published: str | Path,
+    published_subsets: str | Path,
+    folder: Path,
+) -> None:
+    """Write every table into `folder`.
+
+    `point`, `markers` and `descriptions` hold one file per dataset; `parameters` one per (dataset, model) of `studies`,
+    or none when nothing was tuned; `sources` are the datasets' entries of config/datasets.yaml.
+    """
+    scores = pd.concat([pd.read_csv(path) for path in point], ignore_index=True)
+    per_marker = pd.concat([pd.read_csv(path) for path in markers], ignore_index=True)
+    notes = {(name, subset): note for name, entry in sources.items() for subset, note in entry.get("notes", {}).items()}
+    cells = compare(read_published(published), scores, notes)
+    columns = compare_columns(cells) if parameters else None
+    chosen = None
+    if parameters:
+        tuned = [read_json(path)["cv_mae_mm"] for path in parameters]
+        chosen = selection(dict(zip(studies, tuned, strict=True)))
+
+    frames = {"point_metrics": scores, "marker_errors": per_marker, "published_comparison": cells}
+    frames |= {} if columns is None or chosen is None else {"published_columns": columns, "selection": chosen}
+    for name, frame in frames.items():
+        with replacing(folder / f"{name}.csv") as temporary:
+            frame.to_csv(temporary, index=False)
+
+    laid_out = [subset_table([read_json(path) for path in descriptions], pd.read_csv(published_subsets))]
+    laid_out += _comparisons(scores, cells, notes, sources, model_titles)
+    sentences = summary(cells, columns)
+    write_text(folder / "paper_tables.md", "\n".join([_preface(sentences), *(table.markdown() for table in laid_out)]))
+    write_text(folder / "paper_tables.tex", "\n".join(table.latex() for table in laid_out))
+    write_text(folder / "headline.txt", headline(chosen, scores, sentences))
+
+
+def _comparisons(
+    scores: pd.DataFrame,
+    cells: pd.DataFrame,
+    notes: Mapping[tuple[str, str], str],
+    sources: Mapping[str, Mapping[str, Any]],
+    model_titles: Mapping[str, str],
+) -> list[PaperTable]:
+    tables = []
+    for dataset, entry in sources.items():
+        remarks = [f"{SUBSET_TITLES[s]}: {notes[dataset, s]}" for s in SUBSET_TITLES if (dataset, s) in notes]
+        number = entry.get("paper_table")
+        tables.append(comparison_table(number, dataset, entry["title"], scores, cells, model_titles, remarks))
+    return tables
+
+
+def _preface(sentences: Sequence[str]) -> str:
+    lines = ["# The paper's Tables 2 to 5 beside ours", "", *(f"- {sentence}" for sentence in sentences), ""]
+    explanation = (
+        "Each metric has three columns: the cell as printed, our paper preset (the paper's settings), our tuned "
+        "preset. The best cell of each column is bold. Errors are averaged over coordinates, those that never move "
+        "included, as the paper does; `point_metrics.csv` has the same without them.\n"
+    )
+    return "\n".join([*lines, explanation])

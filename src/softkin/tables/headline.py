@@ -1,0 +1,34 @@
+"""What the run says at its end: per dataset the chosen model and its errors, and how the paper's cells fared."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import pandas as pd
+
+from softkin.interface import EXTRAPOLATION, TEST, TUNED
+from softkin.tables.paper_layout import format_number
+
+
+def headline(selected: pd.DataFrame | None, point: pd.DataFrame, sentences: Sequence[str]) -> str:
+    """Plain text, under 80 columns."""
+    lines = ["", "softkin: forward kinematics, mean error of a marker position (mm)", ""]
+    if selected is not None:
+        lines.append(f"  {'dataset':<20}{'model':<8}{'test':>10}{'95 %':>10}{'extrapolation':>16}")
+        tuned = point[point["preset"] == TUNED].set_index(["dataset", "model", "subset"])
+        for row in selected.itertuples():
+            test = tuned.loc[(row.dataset, row.model, TEST)]
+            outside = tuned.loc[(row.dataset, row.model, EXTRAPOLATION)]
+            numbers = (test["euclidean_mean_mm"], test["euclidean_p95_mm"], outside["euclidean_mean_mm"])
+            texts = [format_number(number) for number in numbers]
+            lines.append(f"  {row.dataset:<20}{row.model:<8}{texts[0]:>10}{texts[1]:>10}{texts[2]:>16}")
+        lines += ["", "  The model is chosen by cross-validation on `train` alone."]
+    lines += [f"  {sentence}" for sentence in sentences]
+    lines += [
+        "",
+        "  results/tables/          the tables, as CSV, Markdown and LaTeX",
+        "  results/tables/paper_tables.md   the paper's Tables 2 to 5 beside ours",
+        "  make ui                  browse every run in the MLflow UI",
+        "",
+    ]
+    return "\n".join(lines)

@@ -1,0 +1,231 @@
+"""Tune one model on one dataset: a resumable Optuna study over grouped cross-validation on `train`."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import logging
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import optuna
+import pandas as pd
+from filelock import FileLock
+from numpy.typing import NDArray
+from optuna.trial import FrozenTrial, Trial, TrialState
+from sklearn.model_selection import GroupKFold
+
+from softkin.datasets.table import content_hash, read_subset
+from softkin.files import replacing, sha256_of, write_json
+from softkin.fitting import fit_quietly, kinematic_model
+from softkin.interface import TRAIN, Array, ModelSpec, Params, Samples, SoftkinError, informative_coordinates
+
+logger = logging.getLogger("softkin")
+
+#: Whatever can change a trial's outcome besides our own code.
+DECIDING_PACKAGES = ("numpy", "scipy", "scikit-learn", "xgboost", "optuna")
+ENDED = (TrialState.COMPLETE, TrialState.PRUNED)
+Folds = list[tuple[NDArray[np.intp], NDArray[np.intp]]]
+
+
+@dataclass(frozen=True, slots=True)
+class TuningSettings:
+    """`n_trials` is the study's total; `n_folds` folds grouped by distinct command; a trial sees `max_rows` rows."""
+
+    n_trials: int
+    n_folds: int
+    max_rows: int
+    seed: int
+
+
+@dataclass(frozen=True, slots=True)
+class TuningResult:
+    """Best parameters, their cross-validated score (mm), the table of all trials, the study's fingerprint."""
+
+    params: Params
+    cv_mae_mm: float
+    trials: pd.DataFrame
+    fingerprint: str
+
+
+def bounded_rows(samples: Samples, max_rows: int, seed: int) -> Samples:
+    """At most `max_rows` rows drawn without replacement, in their order, moving coordinates only."""
+    rows = np.arange(len(samples))
+    if len(rows) > max_rows:
+        rows = np.sort(np.random.default_rng(seed).choice(rows, max_rows, replace=False))
+    moving = informative_coordinates(samples.positions)
+    return Samples(samples.commands[rows], samples.positions[np.ix_(rows, moving)])
+
+
+def grouped_folds(commands: Array, n_folds: int, seed: int) -> Folds:
+    """Shuffled folds in which a distinct command stands on one side only.
+
+    Raises:
+        SoftkinError: fewer distinct commands than folds.
+    """
+    _, groups = np.unique(commands, axis=0, return_inverse=True)
+    n_groups = int(groups.max()) + 1
+    if n_groups < n_folds:
+        raise SoftkinError(
+            f"`train` has {n_groups} distinct commands, too few for {n_folds} folds; mend: lower tuning.n_folds"
+        )
+    splitter = GroupKFold(n_folds, shuffle=True, random_state=seed)
+    return list(splitter.split(commands, groups=groups.ravel()))
+
+
+def fold_errors(
+    spec: ModelSpec, params: Params, samples: Samples, folds: Folds, seed: int, threads: int
+) -> Iterator[float]:
+    """Mean absolute error (mm) over moving coordinates, fold by fold; everything is fitted inside the fold."""
+    for inside, outside in folds:
+        estimator = kinematic_model(spec, params, skip_constant=True, seed=seed, threads=threads)
+        fit_quietly(estimator, Samples(samples.commands[inside], samples.positions[inside]), threads)
+        predicted = estimator.predict(samples.commands[outside])
+        yield float(np.abs(predicted - samples.positions[outside]).mean())
+
+
+def fingerprint(spec: ModelSpec, samples: Samples, settings: TuningSettings, code: Sequence[str | Path]) -> str:
+    """SHA-256 (hex) of all that decides a trial: the rows of `train`, the settings but for the number of trials,
+    our source files `code`, the library versions.
+    """
+    decides = {
+        "model": spec.name,
+        "data": content_hash(samples),
+        "settings": {key: value for key, value in asdict(settings).items() if key != "n_trials"},
+        "code": sha256_of(sorted(map(str, code))),
+        "versions": {package: version(package) for package in DECIDING_PACKAGES},
+    }
+    return hashlib.sha256(json.dumps(decides, sort_keys=True).encode()).hexdigest()
+
+
+def tune(
+    samples: Samples,
+    *,
+    spec: ModelSpec,
+    settings: TuningSettings,
+    study_file: str | Path,
+    code: Sequence[str | Path],
+    threads: int,
+) -> TuningResult:
+    """Bring the study in `study_file` (SQLite) to `settings.n_trials` ended trials and return what it found.
+
+    Resumable to the bit: a killed run leaves ended trials in the file; the next run marks the trial it was in as
+    failed and draws it again from a sampler seeded by the trial's place, so that it ends with the same trials as an
+    undisturbed run. A file of another fingerprint is replaced.
+    """
+    optuna.logging.set_verbosity(optuna.logging.WARNING)
+    study_file = Path(study_file).resolve()
+    study_file.parent.mkdir(parents=True, exist_ok=True)
+    mark = fingerprint(spec, samples, settings, code)
+    rows = bounded_rows(samples, settings.max_rows, settings.seed)
+    folds = grouped_folds(rows.commands, settings.n_folds, settings.seed)
+
+    def objective(trial: Trial) -> float:
+        start, cpu = time.perf_counter(), time.process_time()
+        params = spec.search_space(trial)
+        trial.set_user_attr("params", params)
+        errors: list[float] = []
+        try:
+            for step, error in enumerate(fold_errors(spec, params, rows, folds, settings.seed, threads)):
+                errors.append(error)
+                if not np.isfinite(error):
+                    raise optuna.TrialPruned
+                trial.report(float(np.mean(errors)), step)
+                if step + 1 < len(folds) and trial.should_prune():
+                    raise optuna.TrialPruned
+        finally:
+            trial.set_user_attr("n_folds_scored", len(errors))
+            trial.set_user_attr("seconds", time.perf_counter() - start)
+            trial.set_user_attr("cpu_seconds", time.process_time() - cpu)
+        return float(np.mean(errors))
+
+    # An orphan of a killed workflow may still be writing: the lock goes with the process that holds it.
+    with FileLock(f"{study_file}.lock"):
+        study = _open_study(study_file, mark)
+        for unfinished in study.get_trials(deepcopy=False, states=(TrialState.RUNNING,)):
+            study.tell(unfinished.number, state=TrialState.FAIL)
+        ended = len(study.get_trials(deepcopy=False, states=ENDED))
+        if ended:
+            logger.info("resuming after %d of %d trials", ended, settings.n_trials)
+        while ended < settings.n_trials:
+            if ended < len(spec.first_trials) and not study.get_trials(deepcopy=False, states=(TrialState.WAITING,)):
+                study.enqueue_trial(dict(spec.first_trials[ended]))
+            study.sampler = optuna.samplers.TPESampler(
+                seed=settings.seed + ended, multivariate=True, constant_liar=False
+            )
+            study.optimize(objective, n_trials=1)
+            ended += 1
+            _report_progress(study, ended, settings.n_trials)
+        return _result(study.get_trials(states=ENDED)[: settings.n_trials], mark, spec.name)
+
+
+def _open_study(path: Path, mark: str) -> optuna.Study:
+    """The study of this fingerprint; a new one, put in place whole, when there is none."""
+    name = mark[:16]
+    pruner = optuna.pruners.MedianPruner(n_startup_trials=5, n_warmup_steps=0)
+    if not path.exists() or name not in optuna.get_all_study_names(f"sqlite:///{path}"):
+        with replacing(path) as temporary:
+            storage = optuna.storages.RDBStorage(f"sqlite:///{temporary}")
+            optuna.create_study(storage=storage, study_name=name)
+            storage.engine.dispose()
+    return optuna.load_study(study_name=name, storage=f"sqlite:///{path}", pruner=pruner)
+
+
+def _report_progress(study: optuna.Study, ended: int, total: int) -> None:
+    trial = study.get_trials(deepcopy=False)[-1]
+    logger.debug("trial %d of %d: %s %s %s", ended, total, trial.state.name, trial.value, trial.params)
+    if ended == total or ended % max(1, total // 4) == 0:
+        scored = [t for t in study.get_trials(deepcopy=False) if t.state == TrialState.COMPLETE]
+        best = min((float(t.value) for t in scored if t.value is not None), default=float("nan"))
+        logger.info("%d of %d trials, best %.4g mm", ended, total, best)
+
+
+def _result(trials: list[FrozenTrial], mark: str, model: str) -> TuningResult:
+    complete = [trial for trial in trials if trial.state == TrialState.COMPLETE and trial.value is not None]
+    if not complete:
+        raise SoftkinError(f"model '{model}': none of {len(trials)} trials could be scored; see the trial table")
+    best = min(complete, key=lambda trial: (trial.value, trial.number))
+    table = pd.DataFrame([_row(place, trial) for place, trial in enumerate(trials)])
+    return TuningResult(best.user_attrs["params"], float(best.value or 0.0), table, mark)
+
+
+def _row(place: int, trial: FrozenTrial) -> dict[str, Any]:
+    shown = {f"param_{key}": value for key, value in sorted(trial.params.items())}
+    attributes = {key: trial.user_attrs.get(key) for key in ("n_folds_scored", "seconds", "cpu_seconds")}
+    # Optuna gives a pruned trial its last running mean as value; only a whole cross-validation is a score.
+    whole = trial.state == TrialState.COMPLETE
+    return {"trial": place, "state": trial.state.name, "cv_mae_mm": trial.value if whole else None} | attributes | shown
+
+
+def tune_table(
+    table: str | Path,
+    *,
+    spec: ModelSpec,
+    settings: TuningSettings,
+    study_file: str | Path,
+    code: Sequence[str | Path],
+    threads: int,
+    parameters: str | Path,
+    trials: str | Path,
+) -> None:
+    """Tune on the rows of `train` in `table`; write the best `parameters` (JSON) and all `trials` (CSV)."""
+    samples = read_subset(table, TRAIN)
+    result = tune(samples, spec=spec, settings=settings, study_file=study_file, code=code, threads=threads)
+    with replacing(trials) as temporary:
+        result.trials.to_csv(temporary, index=False)
+    write_json(
+        parameters,
+        {
+            "params": result.params,
+            "cv_mae_mm": result.cv_mae_mm,
+            "n_trials": len(result.trials),
+            "n_pruned": int((result.trials["state"] == TrialState.PRUNED.name).sum()),
+            "cpu_seconds": float(result.trials["cpu_seconds"].sum()),
+            "fingerprint": result.fingerprint,
+        },
+    )

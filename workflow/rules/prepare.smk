@@ -1,0 +1,18 @@
+# in:  the published file of a dataset
+# out: the tidy table (subset, u1.., m1_x.. in mm) and its description
+rule prepare:
+    input:
+        raw="results/{dataset}/raw.json",
+        code=package(
+            "datasets/preparing.py", "datasets/published_json.py", "datasets/table.py"
+        ),
+    output:
+        table="results/{dataset}/table.parquet",
+        description="results/{dataset}/dataset.json",
+    log:
+        "results/logs/prepare/{dataset}.log",
+    params:
+        source=source,
+        max_rows=config.get("max_rows_per_subset"),
+    script:
+        "../scripts/prepare.py"

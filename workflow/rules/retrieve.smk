@@ -1,0 +1,13 @@
+# in:  nothing (the mirror or the internet)
+# out: the published file of a dataset, hash checked
+rule retrieve:
+    output:
+        "results/{dataset}/raw.json",
+    log:
+        "results/logs/retrieve/{dataset}.log",
+    retries: 0
+    params:
+        source=source,
+        mirror=config.get("data_mirror"),
+    script:
+        "../scripts/retrieve.py"

@@ -1,0 +1,34 @@
+# in:  the scores of all datasets, the tuned parameters, the paper's printed cells
+# out: results/tables: ours, ours beside the paper's, the chosen models, the headline
+rule tables:
+    input:
+        point=of_every_dataset("results/{dataset}/point_metrics.csv"),
+        markers=expand(
+            "results/{dataset}/marker_errors.csv", dataset=config["datasets"]
+        ),
+        descriptions=expand(
+            "results/{dataset}/dataset.json", dataset=config["datasets"]
+        ),
+        parameters=expand(
+            run_files("parameters.json", [TUNED]), dataset=config["datasets"]
+        ),
+        published=PUBLISHED / "point_metrics.csv",
+        subsets=PUBLISHED / "subsets.csv",
+        code=package(
+            "tables/build.py",
+            "tables/published.py",
+            "tables/selection.py",
+            "tables/paper_layout.py",
+            "tables/headline.py",
+        ),
+    output:
+        headline=HEADLINE,
+        paper=multiext("results/tables/paper_tables", ".md", ".tex"),
+        tables=expand("results/tables/{name}", name=TABLES),
+    log:
+        "results/logs/tables.log",
+    params:
+        studies=every_dataset_and_model(),
+        sources={name: config["sources"][name] for name in config["datasets"]},
+    script:
+        "../scripts/tables.py"

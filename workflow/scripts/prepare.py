@@ -1,0 +1,15 @@
+"""Rule prepare: published file -> tidy table in mm."""
+
+from softkin.datasets.preparing import prepare
+from softkin.job import job
+
+dataset = snakemake.wildcards.dataset
+with job(snakemake.log[0], f"prepare {dataset}"):
+    prepare(
+        snakemake.input.raw,
+        dataset=dataset,
+        source=snakemake.params.source,
+        table=snakemake.output.table,
+        description=snakemake.output.description,
+        max_rows=snakemake.params.max_rows,
+    )

@@ -1,0 +1,18 @@
+"""Rule score: predictions -> point metrics of one dataset."""
+
+from softkin.job import job
+from softkin.scoring import score
+
+dataset = snakemake.wildcards.dataset
+files = zip(snakemake.input.predictions, snakemake.input.fit, snakemake.input.predict, strict=True)
+with job(snakemake.log[0], f"score {dataset}"):
+    score(
+        snakemake.input.table,
+        dataset=dataset,
+        runs={
+            (model, preset): {"predictions": predictions, "fit": fit, "predict": predict}
+            for (model, preset), (predictions, fit, predict) in zip(snakemake.params.runs, files, strict=True)
+        },
+        point=snakemake.output.point,
+        markers=snakemake.output.markers,
+    )

@@ -1,0 +1,23 @@
+"""Rule track: result files of one dataset -> MLflow."""
+
+from softkin.files import write_json
+from softkin.job import job
+from softkin.tracking import Campaign, log_dataset
+
+given = snakemake.input
+runs = {
+    tuple(run): {"predictions": predictions, "fit": fit}
+    for run, predictions, fit in zip(snakemake.params.runs, given.predictions, given.fit, strict=True)
+}
+for run, parameters, trials in zip(snakemake.params.tuned, given.parameters, given.trials, strict=True):
+    runs[tuple(run)] |= {"parameters": parameters, "trials": trials}
+
+with job(snakemake.log[0], f"track {snakemake.wildcards.dataset}"):
+    campaign = Campaign(
+        name=snakemake.params.campaign,
+        seed=snakemake.params.seed,
+        tracking_uri=snakemake.params.tracking_uri,
+        artifacts="mlartifacts",
+    )
+    logged = log_dataset(campaign, description=given.description, point=given.point, runs=runs)
+    write_json(snakemake.output[0], logged)

@@ -1,0 +1,18 @@
+"""Rule tune: bring a study to its number of trials; write the best parameters and the table of trials."""
+
+from softkin.job import job
+from softkin.models import MODELS
+from softkin.tuning import TuningSettings, tune_table
+
+dataset, model = snakemake.wildcards.dataset, snakemake.wildcards.model
+with job(snakemake.log[0], f"tune {dataset} {model}"):
+    tune_table(
+        snakemake.input.table,
+        spec=MODELS[model],
+        settings=TuningSettings(**snakemake.params.tuning, seed=snakemake.params.seed),
+        study_file=snakemake.params.study,
+        code=[*snakemake.input.code, *snakemake.input.model_code],
+        threads=snakemake.threads,
+        parameters=snakemake.output.parameters,
+        trials=snakemake.output.trials,
+    )
