@@ -3,15 +3,9 @@
 rule tables:
     input:
         point=of_every_dataset("results/{dataset}/point_metrics.csv"),
-        markers=expand(
-            "results/{dataset}/marker_errors.csv", dataset=config["datasets"]
-        ),
-        descriptions=expand(
-            "results/{dataset}/dataset.json", dataset=config["datasets"]
-        ),
-        parameters=expand(
-            run_files("parameters.json", [TUNED]), dataset=config["datasets"]
-        ),
+        markers=of_every_dataset("results/{dataset}/marker_errors.csv"),
+        descriptions=of_every_dataset("results/{dataset}/dataset.json"),
+        parameters=of_every_dataset(run_files("parameters.json", [TUNED])),
         published=PUBLISHED / "point_metrics.csv",
         subsets=PUBLISHED / "subsets.csv",
         code=package(
