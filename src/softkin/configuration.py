@@ -46,16 +46,18 @@ def _unknown_names(config: Mapping[str, Any], registries: Mapping[str, Iterable[
 
 def _explain(error: ValidationError) -> list[str]:
     place = ".".join(map(str, error.absolute_path)) or "top level"
+    schema: Any = error.schema
+    value: Any = error.validator_value
     if error.validator == "additionalProperties":
-        known = list(error.schema.get("properties", {}))
+        known = list(schema.get("properties", {}))
         unknown = [key for key in error.instance if key not in known]
         return [f"{place}: unknown key '{key}'{_guess(key, known)}" for key in unknown]
     if error.validator == "enum":
-        choices = [str(choice) for choice in error.validator_value]
+        choices = [str(choice) for choice in value]
         return [f"{place}: {error.instance!r} is none of {', '.join(choices)}{_guess(str(error.instance), choices)}"]
     if error.validator == "required":
         return [f"{place}: {error.message}"]
-    description = error.schema.get("description", "")
+    description = schema.get("description", "")
     return [f"{place}: {error.message}" + (f" ({description})" if description else "")]
 
 

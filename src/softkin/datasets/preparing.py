@@ -64,6 +64,7 @@ def prepare(
             "n_commands": source["n_commands"],
             "n_markers": source["n_markers"],
             "rows": {subset: len(rows) for subset, rows in samples.items()},
+            "is_cut": any(len(rows) < sizes[subset] for subset, rows in samples.items()),
             "content_sha256": {subset: content_hash(rows) for subset, rows in samples.items()},
             "constant_coordinates": [name for name, moves in zip(names, moving, strict=True) if not moves],
         },

@@ -29,6 +29,8 @@ logger = logging.getLogger("softkin")
 
 LENGTH_SCALE_BOUNDS = (1e-2, 1e3)
 NOISE_BOUNDS = (1e-10, 1.0)
+#: Scaled objective of a kernel that cannot be factorised: worse than any, and finite for the line search.
+SINGULAR = 1e6
 JITTERS = (1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5)
 
 
@@ -94,9 +96,20 @@ class BoundedGaussianProcess(RegressorMixin, BaseEstimator):  # type: ignore[mis
         return kernel if self.trend == "none" else trends[self.trend]() + kernel
 
     def _optimizer(self, objective: Any, start: Array, bounds: Array) -> tuple[Array, float]:
+        """L-BFGS-B on the objective per observation.
+
+        Unscaled, the gradient grows with the number of rows and the first step of a bounded problem lands on the
+        bounds, where the kernel is singular and the search gives up (seen with scipy 1.17).
+        """
+
+        def scaled(theta: Array) -> tuple[float, Array]:
+            value, gradient = objective(theta)
+            return (value / scale, gradient / scale) if np.isfinite(value) else (SINGULAR, gradient)
+
+        scale = max(1.0, abs(float(objective(start)[0])))
         options = {"maxiter": self.max_iter}
-        found = minimize(objective, start, method="L-BFGS-B", jac=True, bounds=bounds, options=options)
-        return found.x, found.fun
+        found = minimize(scaled, start, method="L-BFGS-B", jac=True, bounds=bounds, options=options)
+        return found.x, found.fun * scale
 
 
 def _factorised(kernel: Kernel, optimizer: Any, X: Array, y: Array) -> GaussianProcessRegressor:

@@ -40,7 +40,7 @@ SPEC = ModelSpec(
     family="kernel",
     build=build,
     # scikit-learn's optimiser holds n x n x n_coordinates doubles: 1200 rows take all of FINGER and ELASTICA.
-    paper_params={"kernel": "none", "trend": "paper_linear", "learning_rows": 1200, "max_iter": 200},
+    paper_params={"kernel": "none", "trend": "paper_linear", "learning_rows": 1200, "max_iter": 60},
     search_space=search_space,
     first_trials=(
         {"kernel": "rbf", "trend": "none", **_START},

@@ -35,7 +35,8 @@ def build_tables(
     """
     scores = pd.concat([pd.read_csv(path) for path in point], ignore_index=True)
     per_marker = pd.concat([pd.read_csv(path) for path in markers], ignore_index=True)
-    notes = {(name, subset): note for name, entry in sources.items() for subset, note in entry.get("notes", {}).items()}
+    abouts = [read_json(path) for path in descriptions]
+    notes = _notes(sources, abouts)
     cells = compare(read_published(published), scores, notes)
     columns = compare_columns(cells) if parameters else None
     chosen = None
@@ -49,12 +50,24 @@ def build_tables(
         with replacing(folder / f"{name}.csv") as temporary:
             frame.to_csv(temporary, index=False)
 
-    laid_out = [subset_table([read_json(path) for path in descriptions], pd.read_csv(published_subsets))]
+    laid_out = [subset_table(abouts, pd.read_csv(published_subsets))]
     laid_out += _comparisons(scores, cells, notes, sources, model_titles)
     sentences = summary(cells, columns)
     write_text(folder / "paper_tables.md", "\n".join([_preface(sentences), *(table.markdown() for table in laid_out)]))
     write_text(folder / "paper_tables.tex", "\n".join(table.latex() for table in laid_out))
     write_text(folder / "headline.txt", headline(chosen, scores, sentences))
+
+
+def _notes(sources: Mapping[str, Mapping[str, Any]], abouts: Sequence[Mapping[str, Any]]) -> dict[tuple[str, str], str]:
+    """What a reader must know, by (dataset, subset): the entries' notes, and that rows were left out."""
+    notes = {(name, subset): note for name, entry in sources.items() for subset, note in entry.get("notes", {}).items()}
+    for about in abouts:
+        if about["is_cut"]:
+            for subset in SUBSET_TITLES:
+                key = (about["dataset"], subset)
+                warning = "Not comparable with the paper: max_rows_per_subset left rows out."
+                notes[key] = f"{notes.get(key, '')} {warning}".strip()
+    return notes
 
 
 def _comparisons(

@@ -1,0 +1,75 @@
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+import yaml
+
+from softkin.datasets.preparing import MM_PER_UNIT, prepare
+from softkin.datasets.table import read_subset
+from softkin.files import read_json
+from softkin.interface import SUBSETS, SoftkinError
+from tests.conftest import HOUSE, four_subsets, published_json
+
+SIZES = {"train": 30, "validation": 5, "test": 6, "extrapolation": 7}
+SOURCES = yaml.safe_load((HOUSE / "config" / "datasets.yaml").read_text())["sources"]
+
+
+def entry(**changes: Any) -> dict[str, Any]:
+    base = {"title": "Arm", "format": "kinn_json", "sha256": "0" * 64, "position_unit": "mm"}
+    return base | {"n_commands": 3, "n_markers": 2, "rows": SIZES} | changes
+
+
+def run(folder: Path, source: dict[str, Any], **options: Any) -> tuple[Path, Any]:
+    (folder / "raw.json").write_text(json.dumps(published_json(four_subsets(SIZES, n_commands=3, n_markers=2))))
+    table, description = folder / "table.parquet", folder / "dataset.json"
+    prepare(folder / "raw.json", dataset="arm", source=source, table=table, description=description, **options)
+    return table, read_json(description)
+
+
+@pytest.mark.parametrize("unit", MM_PER_UNIT)
+def test_positions_become_millimetres_and_commands_stay(tmp_path: Path, unit: str) -> None:
+    table, about = run(tmp_path, entry(position_unit=unit))
+    original = four_subsets(SIZES, n_commands=3, n_markers=2)
+    factor = {"m": 1000, "cm": 10, "mm": 1, "in": 25.4}[unit]
+    for subset in SUBSETS:
+        rows = read_subset(table, subset)
+        np.testing.assert_array_equal(rows.commands, original[subset].commands)
+        np.testing.assert_allclose(rows.positions, original[subset].positions * factor, rtol=1e-15)
+    assert about["rows"] == SIZES
+    assert about["constant_coordinates"] == ["m1_x", "m1_y", "m1_z"]
+    assert list(pd.read_parquet(table).columns[:5]) == ["subset", "u1", "u2", "u3", "m1_x"]
+
+
+def test_another_number_of_rows_than_registered_is_an_error(tmp_path: Path) -> None:
+    with pytest.raises(SoftkinError, match=r"'arm', subset 'test': 6 rows.*registers 8"):
+        run(tmp_path, entry(rows=SIZES | {"test": 8}))
+    assert not (tmp_path / "table.parquet").exists()
+
+
+def test_max_rows_keeps_the_first_rows_and_says_so(tmp_path: Path) -> None:
+    _, about = run(tmp_path, entry(), max_rows=6)
+    assert about["rows"] == {"train": 6, "validation": 5, "test": 6, "extrapolation": 6}
+    assert about["is_cut"]
+    assert not run(tmp_path, entry())[1]["is_cut"]
+
+
+@pytest.mark.parametrize("dataset", SOURCES)
+def test_published_subset_sizes_are_those_of_table_2(dataset: str, tmp_path: Path, published_mirror: Path) -> None:
+    source = SOURCES[dataset]
+    raw = published_mirror / source["file"]
+    table, description = tmp_path / "table.parquet", tmp_path / "dataset.json"
+    prepare(raw, dataset=dataset, source=source, table=table, description=description)
+    printed = pd.read_csv(HOUSE / "config" / "published" / "subsets.csv")
+    about = read_json(description)
+    paper_name = dataset.removesuffix("_2023_09")
+    for row in printed[printed["dataset"] == paper_name].itertuples():
+        rows = read_subset(table, str(row.subset))
+        assert rows.commands.shape == (row.n_rows, row.n_commands)
+        assert rows.positions.shape == (row.n_rows, row.n_coordinates)
+        assert about["rows"][row.subset] == row.n_rows
+    assert about["constant_coordinates"] == (["m1_x", "m1_y", "m1_z"] if dataset == "abaqus" else [])

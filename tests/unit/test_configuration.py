@@ -1,0 +1,78 @@
+from __future__ import annotations
+
+import copy
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+import yaml
+
+from softkin.configuration import check_configuration
+from softkin.datasets import READERS
+from softkin.interface import SoftkinError
+from softkin.models import MODELS
+from tests.conftest import HOUSE
+
+SCHEMA = HOUSE / "workflow" / "schemas" / "config.schema.yaml"
+GOOD: dict[str, Any] = {}
+for name in ("config", "datasets"):
+    GOOD |= yaml.safe_load((HOUSE / "config" / f"{name}.yaml").read_text())
+
+
+def check(config: dict[str, Any]) -> None:
+    check_configuration(config, SCHEMA, {"models": MODELS, "formats": READERS})
+
+
+def test_the_shipped_configuration_is_good() -> None:
+    check(GOOD)
+    test = yaml.safe_load((HOUSE / "config" / "test.yaml").read_text())
+    check(GOOD | test)
+
+
+@pytest.mark.parametrize(
+    ("spoil", "says"),
+    [
+        (lambda c: c["tuning"].update(n_trails=3), ["tuning: unknown key 'n_trails'", "did you mean 'n_trials'?"]),
+        (lambda c: c.update(sed=1), ["unknown key 'sed'", "did you mean 'seed'?"]),
+        (lambda c: c["tuning"].update(n_trials="many"), ["tuning.n_trials", "total number of trials"]),
+        (lambda c: c["tuning"].update(n_folds=1), ["tuning.n_folds", "at least 2"]),
+        (lambda c: c["tuning"].pop("n_trials"), ["tuning", "'n_trials' is a required property"]),
+        (lambda c: c.update(models=["svm"]), ["models: 'svm' is no model", "did you mean 'svr'?"]),
+        (lambda c: c.update(presets=["tunde"]), ["presets.0", "did you mean 'tuned'?"]),
+        (lambda c: c.update(datasets=["fingers"]), ["datasets: 'fingers'", "did you mean 'finger'?"]),
+        (lambda c: c["sources"]["finger"].update(sha256="abc"), ["sources.finger.sha256"]),
+        (lambda c: c["sources"]["finger"].update(position_unit="inch"), ["sources.finger.position_unit", "mm"]),
+        (lambda c: c["sources"]["finger"].update(format="kin_json"), ["did you mean 'kinn_json'?"]),
+        (lambda c: c["sources"]["finger"]["rows"].update(tests=3), ["sources.finger.rows", "did you mean 'test'?"]),
+        (lambda c: c["sources"]["finger"].update(paper_params={"mpl": {}}), ["did you mean 'mlp'?"]),
+    ],
+)
+def test_a_mistake_is_named_with_its_mend(spoil: Callable[[dict[str, Any]], Any], says: list[str]) -> None:
+    config = copy.deepcopy(GOOD)
+    spoil(config)
+    with pytest.raises(SoftkinError) as error:
+        check(config)
+    for part in says:
+        assert part in str(error.value)
+
+
+def test_all_mistakes_are_told_at_once() -> None:
+    config = copy.deepcopy(GOOD)
+    config["sed"], config["tuning"]["n_trails"] = 1, 2
+    with pytest.raises(SoftkinError, match=r"(?s)n_trails.*sed|sed.*n_trails"):
+        check(config)
+
+
+def test_the_schema_is_strict_and_described_throughout() -> None:
+    def walk(node: Any, path: str) -> None:
+        if not isinstance(node, dict):
+            return
+        if node.get("type") == "object" and "properties" in node:
+            assert node.get("additionalProperties") in (False, None) or isinstance(node["additionalProperties"], dict)
+            assert "additionalProperties" in node, path
+            for key, value in node["properties"].items():
+                assert value.get("description"), f"{path}.{key} has no description"
+        for key, value in node.items():
+            walk(value, f"{path}.{key}")
+
+    walk(yaml.safe_load(SCHEMA.read_text()), "schema")

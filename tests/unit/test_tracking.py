@@ -1,0 +1,150 @@
+"""Against a real MLflow store in a temporary folder."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+import pytest
+from mlflow import MlflowClient
+from mlflow.entities import ViewType
+
+from softkin.files import read_json, write_json
+from softkin.interface import SUBSETS, SoftkinError
+from softkin.tracking import CONTENT, KEY, PARENT, Campaign, create_store, log_dataset
+
+ABOUT = {"dataset": "finger", "title": "FINGER", "sha256": "ab" * 32, "n_commands": 2, "n_markers": 1}
+
+
+@pytest.fixture
+def campaign(tmp_path: Path) -> Campaign:
+    uri = f"sqlite:///{tmp_path / 'mlflow.db'}"
+    create_store(uri)
+    return Campaign("nightly", seed=5, tracking_uri=uri, artifacts=str(tmp_path / "artifacts"))
+
+
+@pytest.fixture
+def results(tmp_path: Path) -> dict[str, Any]:
+    """Result files of two runs of one dataset."""
+    write_json(tmp_path / "dataset.json", ABOUT | {"rows": dict.fromkeys(SUBSETS, 9)})
+    runs: dict[tuple[str, str], dict[str, str]] = {}
+    rows = []
+    for model, preset in (("svr", "paper"), ("svr", "tuned")):
+        folder = tmp_path / model / preset
+        files = {name: str(folder / f"{name}.json") for name in ("fit", "parameters")}
+        write_json(files["fit"], {"params": {"C": 1.0, "kernel": "rbf"}})
+        (folder / "predictions.parquet").write_text(f"{model} {preset}")
+        files["predictions"] = str(folder / "predictions.parquet")
+        if preset == "tuned":
+            write_json(files["parameters"], {"cv_mae_mm": 0.5, "fingerprint": "f", "n_trials": 3})
+            files["trials"] = str(folder / "trials.csv")
+            table = pd.DataFrame({"trial": [0, 1, 2], "state": "COMPLETE", "cv_mae_mm": [0.9, None, 0.5]})
+            table.to_csv(files["trials"], index=False)
+        else:
+            del files["parameters"]
+        runs[model, preset] = files
+        for subset in SUBSETS:
+            key = {"dataset": "finger", "subset": subset, "model": model, "preset": preset}
+            rows.append(key | {"rmse_mm": 1.5, "euclidean_mean_mm": 2.0, "fit_seconds": 3.0, "predict_us_per_row": 4.0})
+    pd.DataFrame(rows).to_csv(tmp_path / "point.csv", index=False)
+    return {"description": tmp_path / "dataset.json", "point": tmp_path / "point.csv", "runs": runs}
+
+
+def snapshot(campaign: Campaign) -> dict[str, Any]:
+    client = MlflowClient(campaign.tracking_uri)
+    experiments = [e.experiment_id for e in client.search_experiments() if e.name == "finger"]
+    return {run.info.run_id: run.to_dictionary() for run in client.search_runs(experiments, max_results=1000)}
+
+
+def test_a_run_shows_its_parameters_metrics_history_data_and_files(campaign: Campaign, results: dict[str, Any]) -> None:
+    logged = log_dataset(campaign, **results)
+    client = MlflowClient(campaign.tracking_uri)
+    run = client.get_run(logged["svr/tuned"])
+    assert run.info.run_name == "finger · svr · tuned"
+    assert run.info.status == "FINISHED"
+    assert run.data.params == {"C": "1.0", "kernel": "rbf"}
+    assert {f"{subset}/rmse_mm" for subset in SUBSETS} <= set(run.data.metrics)
+    assert run.data.metrics["fit_seconds"] == 3.0
+    assert run.data.metrics["cv_mae_mm"] == 0.5
+    assert run.data.tags[PARENT] == logged["campaign"]
+    for tag, value in {"dataset": "finger", "preset": "tuned", "seed": "5", "data_sha256": "ab" * 32}.items():
+        assert run.data.tags[tag] == value
+    assert {"git_commit", "softkin_version"} <= set(run.data.tags)
+    history = client.get_metric_history(run.info.run_id, "trials/best_cv_mae_mm")
+    assert [(metric.step, metric.value) for metric in history] == [(0, 0.9), (2, 0.5)]
+    assert run.inputs.dataset_inputs[0].dataset.name == "finger"
+    artifacts = {file.path for file in client.list_artifacts(run.info.run_id)}
+    assert artifacts == {"predictions.parquet", "trials.csv", "parameters.json", "fit.json"}
+
+
+def test_logging_again_changes_nothing(campaign: Campaign, results: dict[str, Any]) -> None:
+    first = log_dataset(campaign, **results)
+    before = snapshot(campaign)
+    assert log_dataset(campaign, **results) == first
+    assert snapshot(campaign) == before
+    assert len(before) == 3
+
+
+def test_other_timings_alone_are_no_new_result(campaign: Campaign, results: dict[str, Any]) -> None:
+    first = log_dataset(campaign, **results)
+    point = pd.read_csv(results["point"])
+    point.assign(fit_seconds=99.0).to_csv(results["point"], index=False)
+    assert log_dataset(campaign, **results) == first
+
+
+def test_a_changed_result_replaces_its_run_and_no_other(campaign: Campaign, results: dict[str, Any]) -> None:
+    first = log_dataset(campaign, **results)
+    Path(results["runs"]["svr", "tuned"]["predictions"]).write_text("moved")
+    second = log_dataset(campaign, **results)
+    assert second["svr/paper"] == first["svr/paper"]
+    assert second["svr/tuned"] != first["svr/tuned"]
+    assert set(snapshot(campaign)) == set(second.values())
+
+
+def test_a_run_cut_off_before_its_end_is_made_again(campaign: Campaign, results: dict[str, Any]) -> None:
+    first = log_dataset(campaign, **results)
+    client = MlflowClient(campaign.tracking_uri)
+    client.delete_tag(first["svr/paper"], CONTENT)  # it is written last
+    second = log_dataset(campaign, **results)
+    assert second["svr/paper"] != first["svr/paper"]
+    assert len(snapshot(campaign)) == 3
+
+
+def test_a_model_that_left_the_pool_leaves_the_store(campaign: Campaign, results: dict[str, Any]) -> None:
+    log_dataset(campaign, **results)
+    del results["runs"]["svr", "paper"]
+    logged = log_dataset(campaign, **results)
+    assert set(snapshot(campaign)) == set(logged.values())
+
+
+def test_campaigns_stand_side_by_side(campaign: Campaign, results: dict[str, Any]) -> None:
+    one = log_dataset(campaign, **results)
+    other = log_dataset(replace(campaign, name="weekly"), **results)
+    assert not set(one.values()) & set(other.values())
+    assert set(snapshot(campaign)) == set(one.values()) | set(other.values())
+
+
+def test_a_lost_store_is_an_error_with_a_mend(tmp_path: Path, results: dict[str, Any]) -> None:
+    lost = Campaign("nightly", 0, f"sqlite:///{tmp_path / 'none.db'}", str(tmp_path))
+    with pytest.raises(SoftkinError, match="make store"):
+        log_dataset(lost, **results)
+    assert not (tmp_path / "none.db").exists()
+
+
+def test_four_processes_may_create_the_store_at_once(tmp_path: Path) -> None:
+    code = f"from softkin.tracking import create_store; create_store('sqlite:///{tmp_path / 'mlflow.db'}')"
+    processes = [subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.DEVNULL) for _ in range(4)]
+    assert [process.wait() for process in processes] == [0, 0, 0, 0]
+    client = MlflowClient(f"sqlite:///{tmp_path / 'mlflow.db'}")
+    assert [e.name for e in client.search_experiments(view_type=ViewType.ALL)] == ["Default"]
+
+
+def test_keys_are_tags_that_can_be_searched(campaign: Campaign, results: dict[str, Any]) -> None:
+    logged = log_dataset(campaign, **results)
+    run = MlflowClient(campaign.tracking_uri).get_run(logged["svr/paper"])
+    assert run.data.tags[KEY] == "nightly/finger/svr/paper"
+    assert read_json(results["description"])["dataset"] == "finger"

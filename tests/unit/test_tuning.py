@@ -1,0 +1,180 @@
+from __future__ import annotations
+
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from softkin.files import read_json
+from softkin.interface import SoftkinError
+from softkin.models import MODELS, source_files
+from softkin.tuning import TuningResult, TuningSettings, bounded_rows, fingerprint, fold_errors, grouped_folds, tune
+from tests.conftest import bending_arm
+
+SETTINGS = TuningSettings(n_trials=8, n_folds=3, max_rows=60, seed=3)
+TIMES = ["seconds", "cpu_seconds"]
+
+
+def study(path: Path, model: str = "lasso", given: TuningSettings = SETTINGS) -> TuningResult:
+    rows = bending_arm(90)
+    return tune(rows, spec=MODELS[model], settings=given, study_file=path, code=source_files(model), threads=1)
+
+
+def untimed(trials: pd.DataFrame) -> pd.DataFrame:
+    return trials.drop(columns=TIMES)
+
+
+@given(
+    st.lists(st.integers(0, 9), min_size=30, max_size=60).filter(lambda groups: len(set(groups)) >= 4),
+    st.integers(2, 4),
+    st.integers(0, 99),
+)
+def test_a_distinct_command_stands_on_one_side_of_a_fold(groups: list[int], n_folds: int, seed: int) -> None:
+    commands = np.array(groups, dtype=float)[:, None] * [1.0, -2.0]
+    folds = grouped_folds(commands, n_folds, seed)
+    assert sorted(np.concatenate([outside for _, outside in folds])) == list(range(len(commands)))
+    for inside, outside in folds:
+        assert not set(map(tuple, commands[inside])) & set(map(tuple, commands[outside]))
+
+
+def test_too_few_distinct_commands_is_an_error() -> None:
+    with pytest.raises(SoftkinError, match=r"2 distinct commands, too few for 5 folds.*tuning.n_folds"):
+        grouped_folds(np.array([[0.0], [1.0]] * 20), 5, 0)
+
+
+def test_repeated_commands_do_not_flatter_a_memorising_model() -> None:
+    """40 copies of each command, as in the paper's ELASTICA: an ungrouped fold would report no error at all."""
+    few = bending_arm(15)
+    rows = replace(few, commands=np.tile(few.commands, (40, 1)), positions=np.tile(few.positions, (40, 1)))
+    folds = grouped_folds(rows.commands, 3, 0)
+    deep = {"n_estimators": 20, "bootstrap": False}
+    assert np.mean(list(fold_errors(MODELS["rf"], deep, rows, folds, 0, 1))) > 1.0
+
+
+@settings(max_examples=20)
+@given(st.integers(20, 200))
+def test_rows_of_a_trial_are_bounded_distinct_and_in_order(max_rows: int) -> None:
+    rows = bending_arm(150, n_commands=3, n_markers=2)
+    kept = bounded_rows(rows, max_rows, 0)
+    assert len(kept) == min(150, max_rows)
+    assert kept.positions.shape[1] == 3  # the base marker never moves
+    places = [int(np.flatnonzero((rows.commands == row).all(axis=1))[0]) for row in kept.commands]
+    assert places == sorted(set(places))
+
+
+def test_the_number_of_trials_is_a_total_and_a_longer_study_continues(tmp_path: Path) -> None:
+    short = study(tmp_path / "a.db", given=replace(SETTINGS, n_trials=5))
+    again = study(tmp_path / "a.db", given=replace(SETTINGS, n_trials=5))
+    pd.testing.assert_frame_equal(short.trials, again.trials)
+    longer = study(tmp_path / "a.db")
+    assert len(longer.trials) == 8
+    pd.testing.assert_frame_equal(untimed(longer.trials), untimed(study(tmp_path / "b.db").trials))
+    shorter = study(tmp_path / "a.db", given=replace(SETTINGS, n_trials=5))
+    pd.testing.assert_frame_equal(shorter.trials, short.trials, check_dtype=False)
+
+
+def test_a_study_belongs_to_its_fingerprint(tmp_path: Path) -> None:
+    code = tmp_path / "model.py"
+    code.write_text("a = 1")
+    rows, spec = bending_arm(60), MODELS["lr"]
+    marks = [
+        fingerprint(spec, rows, SETTINGS, [code]),
+        fingerprint(spec, bending_arm(61), SETTINGS, [code]),
+        fingerprint(MODELS["lasso"], rows, SETTINGS, [code]),
+        *(
+            fingerprint(spec, rows, replace(SETTINGS, **{key: 7}), [code])  # type: ignore[arg-type]
+            for key in ("n_folds", "max_rows", "seed")
+        ),
+    ]
+    assert fingerprint(spec, rows, replace(SETTINGS, n_trials=99), [code]) == marks[0]
+    code.write_text("a = 2")
+    marks.append(fingerprint(spec, rows, SETTINGS, [code]))
+    assert len(set(marks)) == len(marks)
+
+
+def test_another_seed_starts_a_new_study(tmp_path: Path) -> None:
+    study(tmp_path / "a.db")
+    other = study(tmp_path / "a.db", given=replace(SETTINGS, seed=4))
+    fresh = study(tmp_path / "b.db", given=replace(SETTINGS, seed=4))
+    pd.testing.assert_frame_equal(untimed(other.trials), untimed(fresh.trials))
+
+
+def test_the_best_trial_is_a_whole_cross_validation(tmp_path: Path) -> None:
+    result = study(tmp_path / "a.db", "rf", replace(SETTINGS, n_trials=14))
+    complete = result.trials[result.trials["state"] == "COMPLETE"]
+    assert result.cv_mae_mm == complete["cv_mae_mm"].min()
+    assert (complete["n_folds_scored"] == 3).all()
+    pruned = result.trials[result.trials["state"] == "PRUNED"]
+    assert len(pruned) > 0
+    assert (pruned["n_folds_scored"] < 3).all()
+    assert pruned["cv_mae_mm"].isna().all()
+
+
+WORKER = """
+import sys
+from pathlib import Path
+from tests.unit.test_tuning import SETTINGS, study
+from softkin.files import write_json
+result = study(Path(sys.argv[1]), sys.argv[2])
+result.trials.to_csv(sys.argv[3], index=False)
+write_json(sys.argv[3] + ".best", {"params": result.params, "score": result.cv_mae_mm})
+"""
+
+
+def worker(folder: Path, name: str, model: str) -> subprocess.Popen[bytes]:
+    command = [sys.executable, "-c", WORKER, str(folder / f"{name}.db"), model, str(folder / f"{name}.csv")]
+    root = Path(__file__).parents[2]
+    return subprocess.Popen(command, cwd=root, env={**os.environ, "PYTHONPATH": str(root)}, stderr=subprocess.DEVNULL)
+
+
+def kill_often(folder: Path, model: str, kills: int, rng: random.Random, longest: float) -> int:
+    """Run a study, killing it -9 at random moments after its file is there; return how often that hit it."""
+    hits = 0
+    for _ in range(kills):
+        process = worker(folder, "killed", model)
+        while not (folder / "killed.db").exists() and process.poll() is None:
+            time.sleep(0.005)
+        time.sleep(rng.uniform(0.0, longest))
+        hits += process.poll() is None
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+    assert worker(folder, "killed", model).wait() == 0
+    return hits
+
+
+def assert_same_end(folder: Path) -> None:
+    killed, undisturbed = (pd.read_csv(folder / f"{name}.csv") for name in ("killed", "undisturbed"))
+    pd.testing.assert_frame_equal(untimed(killed), untimed(undisturbed), check_exact=True)
+    assert read_json(folder / "killed.csv.best") == read_json(folder / "undisturbed.csv.best")
+
+
+def test_a_killed_study_ends_as_an_undisturbed_one(tmp_path: Path) -> None:
+    assert worker(tmp_path, "undisturbed", "rf").wait() == 0
+    assert kill_often(tmp_path, "rf", kills=3, rng=random.Random(1), longest=2.5) >= 2
+    assert_same_end(tmp_path)
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(1800)
+@pytest.mark.parametrize("model", MODELS)
+def test_campaign_kill_at_any_moment(tmp_path: Path, model: str) -> None:
+    """Twelve kills from the first millisecond on, study creation included, for every model."""
+    rng = random.Random(f"campaign {model}")
+    assert worker(tmp_path, "undisturbed", model).wait() == 0
+    for _ in range(12):
+        process = worker(tmp_path, "killed", model)
+        time.sleep(rng.uniform(0.5, 5.0))
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+    assert worker(tmp_path, "killed", model).wait() == 0
+    assert_same_end(tmp_path)

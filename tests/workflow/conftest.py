@@ -1,0 +1,72 @@
+"""One real run of the workflow on config/test.yaml, shared by all workflow tests: made-up data, nothing installed."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from tests.conftest import HOUSE
+
+
+@dataclass(frozen=True)
+class House:
+    """A copy of the house, a folder to work in, and the mirror it reads."""
+
+    root: Path
+    work: Path
+    mirror: Path
+
+    def snakemake(self, *options: str, cores: int = 2, work: Path | None = None) -> subprocess.CompletedProcess[str]:
+        command = [sys.executable, "-m", "snakemake", "--cores", str(cores)]
+        command += ["--snakefile", str(self.root / "Snakefile"), "--directory", str(work or self.work)]
+        command += ["--configfile", str(self.root / "config" / "test.yaml"), str(self.mirror / "override.yaml")]
+        command += ["--workflow-profile", str(self.root / "workflow" / "profiles" / "default"), *options]
+        environment = os.environ | {
+            "PYTHONPATH": str(self.root / "src"),
+            "SOFTKIN_DATA_MIRROR": str(self.mirror),
+            "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}",
+        }
+        return subprocess.run(
+            command, env=environment, cwd=self.root, capture_output=True, text=True, check=False, timeout=280
+        )
+
+    def jobs(self, *options: str) -> list[tuple[str, str]]:
+        """(rule, wildcards) of what a run would do now."""
+        done = self.snakemake("--dry-run", *options)
+        assert done.returncode == 0, done.stdout + done.stderr
+        found, rule = [], ""
+        for line in (done.stdout + done.stderr).splitlines():
+            if line.startswith(("rule ", "localrule ")):
+                rule = line.split()[1].rstrip(":")
+                found.append((rule, ""))
+            elif "wildcards:" in line:
+                found[-1] = (rule, line.split("wildcards:")[1].strip())
+        return [job for job in found if job[0] != "all"]
+
+
+def copy_house(root: Path) -> None:
+    for name in ("Snakefile", "config", "workflow", "src"):
+        source = HOUSE / name
+        if source.is_dir():
+            shutil.copytree(source, root / name, ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
+        else:
+            shutil.copy(source, root / name)
+
+
+@pytest.fixture(scope="session")
+def house(tmp_path_factory: pytest.TempPathFactory, mirror: Path) -> House:
+    """After one complete run."""
+    folder = tmp_path_factory.mktemp("house")
+    copy_house(folder / "house")
+    (folder / "work").mkdir()
+    house = House(folder / "house", folder / "work", mirror)
+    done = house.snakemake()
+    assert done.returncode == 0, done.stdout[-5000:] + done.stderr[-5000:]
+    (folder / "work" / "first_run.txt").write_text(done.stdout + done.stderr)
+    return house

@@ -1,0 +1,174 @@
+"""The whole pipeline, run for real."""
+
+from __future__ import annotations
+
+import shutil
+import sqlite3
+from pathlib import Path
+
+import pandas as pd
+import pytest
+from mlflow import MlflowClient
+
+from softkin.files import read_json
+from softkin.interface import PRESETS, SUBSETS
+from softkin.models import MODELS
+from tests.workflow.conftest import House
+
+pytestmark = pytest.mark.timeout(300)
+DATASETS = ("elastica_2023_09", "finger")
+TIMINGS = ["fit_seconds", "predict_us_per_row"]
+
+
+def test_point_metrics_have_a_row_for_everything(house: House) -> None:
+    table = pd.read_csv(house.work / "results" / "tables" / "point_metrics.csv")
+    wanted = {(d, s, m, p) for d in DATASETS for s in SUBSETS for m in MODELS for p in PRESETS}
+    assert set(table[["dataset", "subset", "model", "preset"]].itertuples(index=False, name=None)) == wanted
+    assert len(table) == len(wanted)
+    columns = "rmse_mm,mae_mm,r2,mape_percent,rmse_informative_mm,mae_informative_mm,r2_informative,euclidean_mean_mm"
+    assert [*columns.split(","), "euclidean_p95_mm", *TIMINGS] == [
+        c for c in table.columns if c not in ("dataset", "subset", "model", "preset", "mape_informative_percent")
+    ]
+    assert not table.isna().any().any()
+
+
+def test_selection_follows_the_cross_validation_score(house: House) -> None:
+    selection = pd.read_csv(house.work / "results" / "tables" / "selection.csv").set_index("dataset")
+    for dataset in DATASETS:
+        files = {model: house.work / "results" / dataset / model / "tuned" / "parameters.json" for model in MODELS}
+        scores = {model: read_json(file)["cv_mae_mm"] for model, file in files.items()}
+        assert selection.loc[dataset, "model"] == min(scores, key=lambda model: scores[model])
+        assert selection.loc[dataset, "cv_mae_mm"] == min(scores.values())
+
+
+def test_the_paper_tables_are_laid_out_and_cut_rows_are_marked(house: House) -> None:
+    text = (house.work / "results" / "tables" / "paper_tables.md").read_text()
+    for part in ("### Table 2", "### Table 5: comparison on FINGER", "not in the paper", "left rows out"):
+        assert part in text
+    comparison = pd.read_csv(house.work / "results" / "tables" / "published_comparison.csv")
+    assert len(comparison) == 64
+    assert set(comparison["paper_verdict"]) | set(comparison["tuned_verdict"]) <= {"reproduced", "better", "worse"}
+    assert comparison["note"].str.contains("left rows out").all()
+
+
+def test_the_run_ends_with_the_headline(house: House) -> None:
+    text = (house.work / "first_run.txt").read_text()
+    assert "softkin: forward kinematics" in text
+    assert "make ui" in text
+
+
+def test_every_job_left_its_log(house: House) -> None:
+    logs = {path.relative_to(house.work / "results" / "logs") for path in (house.work / "results").rglob("*.log")}
+    assert {Path("tune/finger/svr.log"), Path("predict/finger/gp/paper.log"), Path("track/finger.log")} <= logs
+
+
+def test_the_store_holds_a_child_run_per_model_and_preset(house: House) -> None:
+    client = MlflowClient(f"sqlite:///{house.work / 'mlflow.db'}")
+    for dataset in DATASETS:
+        experiment = client.get_experiment_by_name(dataset)
+        runs = client.search_runs([experiment.experiment_id], max_results=100)
+        parents = [run for run in runs if "mlflow.parentRunId" not in run.data.tags]
+        assert len(parents) == 1
+        children = [run for run in runs if run.data.tags.get("mlflow.parentRunId") == parents[0].info.run_id]
+        names = {(run.data.tags["model"], run.data.tags["preset"]) for run in children}
+        assert names == {(model, preset) for model in MODELS for preset in PRESETS}
+        assert len(children) == 16
+
+
+def test_a_second_run_does_nothing(house: House) -> None:
+    before = {path: path.stat().st_mtime_ns for path in (house.work / "results").rglob("*") if path.is_file()}
+    with sqlite3.connect(house.work / "mlflow.db") as store:
+        runs_before = store.execute("select run_uuid, lifecycle_stage from runs order by 1").fetchall()
+    done = house.snakemake()
+    assert done.returncode == 0
+    assert "Nothing to be done" in done.stdout + done.stderr
+    assert {p: p.stat().st_mtime_ns for p in (house.work / "results").rglob("*") if p.is_file()} == before
+    with sqlite3.connect(house.work / "mlflow.db") as store:
+        assert store.execute("select run_uuid, lifecycle_stage from runs order by 1").fetchall() == runs_before
+
+
+def test_editing_a_model_reruns_its_jobs_and_no_others(house: House) -> None:
+    file = house.root / "src" / "softkin" / "models" / "svr.py"
+    original = file.read_text()
+    file.write_text(original + "\n# edited\n")
+    try:
+        jobs = house.jobs()
+    finally:
+        file.write_text(original)
+    per_model = {job for job in jobs if job[0] in ("tune", "fit_paper", "fit_tuned", "predict")}
+    assert {rule for rule, _ in per_model} == {"tune", "fit_paper", "fit_tuned", "predict"}
+    assert all("model=svr" in wildcards for _, wildcards in per_model)
+    assert {rule for rule, _ in jobs} - {"tune", "fit_paper", "fit_tuned", "predict"} <= {"score", "tables", "track"}
+    assert house.jobs() == []
+
+
+@pytest.mark.parametrize(
+    ("module", "rules"),
+    [
+        ("metrics/point.py", {"score", "tables", "track"}),
+        ("tables/published.py", {"tables"}),
+        ("tracking.py", {"track"}),
+    ],
+)
+def test_editing_a_later_stage_refits_nothing(house: House, module: str, rules: set[str]) -> None:
+    file = house.root / "src" / "softkin" / module
+    original = file.read_text()
+    file.write_text(original + "\n# edited\n")
+    try:
+        assert {rule for rule, _ in house.jobs()} == rules
+    finally:
+        file.write_text(original)
+
+
+def test_more_trials_retune_and_keep_the_paper_preset(house: House) -> None:
+    jobs = house.jobs("--config", "tuning={n_trials: 6, n_folds: 2, max_rows: 80}")
+    assert {rule for rule, _ in jobs} >= {"tune"}
+    assert "fit_paper" not in {rule for rule, _ in jobs}
+
+
+@pytest.mark.parametrize(
+    ("options", "says"),
+    [
+        (["--config", "tuning={n_trails: 3}"], "did you mean 'n_trials'?"),
+        (["--config", "datasets=[fingr]"], "did you mean 'finger'?"),
+        (["--config", "models=[svm]"], "did you mean 'svr'?"),
+    ],
+)
+def test_a_typo_is_told_and_stops_the_run(house: House, options: list[str], says: str) -> None:
+    done = house.snakemake("--dry-run", *options)
+    assert done.returncode != 0
+    assert says in done.stdout + done.stderr
+    assert "Traceback" not in done.stdout + done.stderr
+
+
+def test_results_do_not_depend_on_the_number_of_cores_or_the_run(house: House, tmp_path: Path) -> None:
+    """Another folder, one core: the same tables but for timings."""
+    options = ["--config", "models=[lr, rf, xgb, gp]", "datasets=[finger]"]
+    done = house.snakemake("results/tables/point_metrics.csv", *options, cores=1, work=tmp_path)
+    assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
+    name = Path("results") / "tables" / "point_metrics.csv"
+    key = ["dataset", "subset", "model", "preset"]
+    again = pd.read_csv(tmp_path / name).set_index(key).drop(columns=TIMINGS)
+    first = pd.read_csv(house.work / name).set_index(key).drop(columns=TIMINGS)
+    pd.testing.assert_frame_equal(again, first.loc[again.index], check_exact=True)
+
+
+def test_bad_data_stop_with_a_message_and_lose_nothing(house: House, tmp_path: Path) -> None:
+    """One dataset's file is broken: the run fails, says why, and the other dataset's results are made."""
+    broken = tmp_path / "mirror"
+    shutil.copytree(house.mirror, broken)
+    (broken / "FINGER.json").write_bytes((broken / "FINGER.json").read_bytes()[:-100])
+    bad = House(house.root, tmp_path, broken)
+    options = ["--config", "models=[lr]", "presets=[paper]", "sources={finger: {urls: []}}"]
+    done = bad.snakemake(*options)
+    output = done.stdout + done.stderr
+    assert done.returncode != 0
+    for part in ("dataset 'finger'", "wrong file: sha256 is", "SOFTKIN_DATA_MIRROR"):
+        assert part in output
+    assert not (tmp_path / "results" / "finger" / "raw.json").exists()
+    assert (tmp_path / "results" / "elastica_2023_09" / "mlflow_runs.json").exists()
+
+
+def test_the_house_is_linted(house: House) -> None:
+    done = house.snakemake("--lint")
+    assert done.returncode == 0, done.stdout + done.stderr
