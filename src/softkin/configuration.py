@@ -50,7 +50,7 @@ def _explain(error: ValidationError) -> list[str]:
     value: Any = error.validator_value
     if error.validator == "additionalProperties":
         known = list(schema.get("properties", {}))
-        unknown = [key for key in error.instance if key not in known]
+        unknown = [key for key in list(error.instance) if key not in known]
         return [f"{place}: unknown key '{key}'{_guess(key, known)}" for key in unknown]
     if error.validator == "enum":
         choices = [str(choice) for choice in value]

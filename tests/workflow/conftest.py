@@ -22,10 +22,14 @@ class House:
     work: Path
     mirror: Path
 
-    def snakemake(self, *options: str, cores: int = 2, work: Path | None = None) -> subprocess.CompletedProcess[str]:
+    def snakemake(
+        self, *options: str, cores: int = 2, work: Path | None = None, more: Path | None = None
+    ) -> subprocess.CompletedProcess[str]:
+        """Run it; `more` is one more configuration file."""
         command = [sys.executable, "-m", "snakemake", "--cores", str(cores)]
         command += ["--snakefile", str(self.root / "Snakefile"), "--directory", str(work or self.work)]
         command += ["--configfile", str(self.root / "config" / "test.yaml"), str(self.mirror / "override.yaml")]
+        command += [str(more)] if more else []
         command += ["--workflow-profile", str(self.root / "workflow" / "profiles" / "default"), *options]
         environment = os.environ | {
             "PYTHONPATH": str(self.root / "src"),
@@ -36,9 +40,9 @@ class House:
             command, env=environment, cwd=self.root, capture_output=True, text=True, check=False, timeout=280
         )
 
-    def jobs(self, *options: str) -> list[tuple[str, str]]:
+    def jobs(self, more: Path | None = None) -> list[tuple[str, str]]:
         """(rule, wildcards) of what a run would do now."""
-        done = self.snakemake("--dry-run", *options)
+        done = self.snakemake("--dry-run", more=more)
         assert done.returncode == 0, done.stdout + done.stderr
         found, rule = [], ""
         for line in (done.stdout + done.stderr).splitlines():
@@ -51,6 +55,7 @@ class House:
 
 
 def copy_house(root: Path) -> None:
+    root.mkdir()
     for name in ("Snakefile", "config", "workflow", "src"):
         source = HOUSE / name
         if source.is_dir():

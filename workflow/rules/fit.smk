@@ -13,6 +13,8 @@ rule fit_paper:
     benchmark:
         "results/benchmarks/fit_paper/{dataset}/{model}.tsv"
     priority: 10
+    conda:
+        SOFTWARE
     threads: 1
     params:
         overrides=lookup(
@@ -37,6 +39,8 @@ rule fit_tuned:
     benchmark:
         "results/benchmarks/fit_tuned/{dataset}/{model}.tsv"
     priority: 10
+    conda:
+        SOFTWARE
     threads: 1
     params:
         seed=config["seed"],

@@ -10,6 +10,8 @@ rule predict:
     log:
         "results/logs/predict/{dataset}/{model}/{preset}.log",
     priority: 20
+    conda:
+        SOFTWARE
     threads: 1
     script:
         "../scripts/predict.py"

@@ -11,6 +11,8 @@ rule prepare:
         description="results/{dataset}/dataset.json",
     log:
         "results/logs/prepare/{dataset}.log",
+    conda:
+        SOFTWARE
     params:
         source=source,
         max_rows=config.get("max_rows_per_subset"),

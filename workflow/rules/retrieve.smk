@@ -6,6 +6,8 @@ rule retrieve:
     log:
         "results/logs/retrieve/{dataset}.log",
     retries: 0
+    conda:
+        SOFTWARE
     params:
         source=source,
         mirror=config.get("data_mirror"),

@@ -13,6 +13,8 @@ rule score:
     log:
         "results/logs/score/{dataset}.log",
     priority: 30
+    conda:
+        SOFTWARE
     params:
         runs=every_run(),
     script:

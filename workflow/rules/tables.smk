@@ -21,6 +21,8 @@ rule tables:
         tables=expand("results/tables/{name}", name=TABLES),
     log:
         "results/logs/tables.log",
+    conda:
+        SOFTWARE
     params:
         studies=every_dataset_and_model(),
         sources={name: config["sources"][name] for name in config["datasets"]},

@@ -5,6 +5,8 @@ rule create_store:
         "results/mlflow_store.json",
     log:
         "results/logs/create_store.log",
+    conda:
+        SOFTWARE
     params:
         tracking_uri=config["tracking_uri"],
     script:
@@ -26,6 +28,8 @@ rule track:
     log:
         "results/logs/track/{dataset}.log",
     priority: 40
+    conda:
+        SOFTWARE
     params:
         runs=every_run(),
         tuned=[run for run in every_run() if run[1] == TUNED],

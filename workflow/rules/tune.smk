@@ -19,6 +19,8 @@ rule tune:
         "results/logs/tune/{dataset}/{model}.log",
     benchmark:
         "results/benchmarks/tune/{dataset}/{model}.tsv"
+    conda:
+        SOFTWARE
     threads: 1
     params:
         study="results/studies/{dataset}/{model}.db",

@@ -1,0 +1,65 @@
+"""How well a run uses the machine: CPU seconds of fits over cores x wall seconds, and the ten slowest jobs.
+
+    python benchmarks/utilisation.py --cores 2 [--configfile config/test.yaml]
+
+Runs the workflow from nothing in a temporary folder (the default configuration takes about a quarter of an hour on
+two cores). CPU seconds are those of the tuning trials and of the fits themselves, imports and file work left out.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import pandas as pd
+
+HOUSE = Path(__file__).resolve().parent.parent
+
+
+def fit_cpu_seconds(results: Path) -> float:
+    """CPU seconds that went into trials and fits."""
+    trials = sum(json.loads(path.read_text())["cpu_seconds"] for path in results.glob("*/*/tuned/parameters.json"))
+    return trials + sum(json.loads(path.read_text())["fit_cpu_seconds"] for path in results.glob("*/*/*/fit.json"))
+
+
+def slowest_jobs(benchmarks: Path, count: int = 10) -> pd.DataFrame:
+    """The jobs of longest wall time, from Snakemake's own benchmark files."""
+    rows = []
+    for path in benchmarks.rglob("*.tsv"):
+        timing = pd.read_csv(path, sep="\t").iloc[0]
+        rows.append({"job": path.relative_to(benchmarks).with_suffix("").as_posix(), "wall_s": timing["s"]})
+    return pd.DataFrame(rows).nlargest(count, "wall_s").round(1)
+
+
+def main() -> None:
+    """Run, measure, print."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
+    parser.add_argument("--cores", type=int, default=2)
+    parser.add_argument("--configfile", nargs="*", default=[])
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        command = [sys.executable, "-m", "snakemake", "--cores", str(options.cores), "--directory", folder]
+        command += ["--snakefile", str(HOUSE / "Snakefile"), "--quiet", "all"]
+        if options.configfile:
+            command += ["--configfile", *(str(Path(path).resolve()) for path in options.configfile)]
+        path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+        start = time.perf_counter()
+        subprocess.run(command, check=True, cwd=HOUSE, env=os.environ | {"PATH": path})
+        wall = time.perf_counter() - start
+        start = time.perf_counter()
+        subprocess.run(command, check=True, cwd=HOUSE, env=os.environ | {"PATH": path})
+        again = time.perf_counter() - start
+        cpu = fit_cpu_seconds(Path(folder) / "results")
+        print(f"wall {wall:.0f} s on {options.cores} cores; a second run, with nothing to do, {again:.1f} s")
+        print(f"CPU of fits {cpu:.0f} s; share of the machine {cpu / (options.cores * wall):.3f}")
+        print(slowest_jobs(Path(folder) / "results" / "benchmarks").to_string(index=False))
+
+
+if __name__ == "__main__":
+    main()
