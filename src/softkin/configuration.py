@@ -48,9 +48,10 @@ def _explain(error: ValidationError) -> list[str]:
     place = ".".join(map(str, error.absolute_path)) or "top level"
     schema: Any = error.schema
     value: Any = error.validator_value
+    instance: Any = error.instance
     if error.validator == "additionalProperties":
         known = list(schema.get("properties", {}))
-        unknown = [key for key in list(error.instance) if key not in known]
+        unknown = [key for key in instance if key not in known]
         return [f"{place}: unknown key '{key}'{_guess(key, known)}" for key in unknown]
     if error.validator == "enum":
         choices = [str(choice) for choice in value]
