@@ -11,6 +11,7 @@ rule prepare:
         description="results/{dataset}/dataset.json",
     log:
         "results/logs/prepare/{dataset}.log",
+    priority: 50
     conda:
         SOFTWARE
     params:

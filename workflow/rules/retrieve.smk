@@ -5,7 +5,7 @@ rule retrieve:
         "results/{dataset}/raw.json",
     log:
         "results/logs/retrieve/{dataset}.log",
-    retries: 0
+    priority: 50
     conda:
         SOFTWARE
     params:
