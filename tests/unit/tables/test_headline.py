@@ -1,0 +1,34 @@
+from __future__ import annotations
+
+import pandas as pd
+
+from softkin.tables.headline import headline
+
+
+def scores(mean: float, p95: float) -> pd.DataFrame:
+    return pd.DataFrame(
+        [
+            {"dataset": "arm", "model": "gp", "preset": "tuned", "subset": subset}
+            | {"euclidean_mean_mm": mean * factor, "euclidean_p95_mm": p95 * factor}
+            for subset, factor in (("test", 1.0), ("extrapolation", 3.0))
+        ]
+    )
+
+
+CHOSEN = pd.DataFrame([{"dataset": "arm", "model": "gp"}])
+
+
+def test_the_chosen_model_and_its_errors() -> None:
+    text = headline(CHOSEN, scores(0.5, 1.25), ["tuned preset: 3 of 4"])
+    assert "arm                 gp            0.500      1.25            1.50" in text
+    assert "tuned preset: 3 of 4" in text
+    assert "gross misses" not in text
+    assert max(map(len, text.splitlines())) <= 90
+
+
+def test_a_mean_set_by_a_few_rows_is_remarked_upon() -> None:
+    assert "arm: a few gross misses set the mean" in headline(CHOSEN, scores(2.0, 1.25), [])
+
+
+def test_without_tuning_there_is_no_choice_to_show() -> None:
+    assert "chosen" not in headline(None, scores(1.0, 2.0), [])
