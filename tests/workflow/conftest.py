@@ -30,7 +30,7 @@ class House:
         command += ["--snakefile", str(self.root / "Snakefile"), "--directory", str(work or self.work)]
         command += ["--configfile", str(self.root / "config" / "test.yaml"), str(self.mirror / "override.yaml")]
         command += [str(more)] if more else []
-        command += ["--workflow-profile", str(self.root / "workflow" / "profiles" / "default"), *options]
+        command += options
         environment = os.environ | {
             "PYTHONPATH": str(self.root / "src"),
             "SOFTKIN_DATA_MIRROR": str(self.mirror),
@@ -56,7 +56,7 @@ class House:
 
 def copy_house(root: Path) -> None:
     root.mkdir()
-    for name in ("Snakefile", "config", "workflow", "src"):
+    for name in ("Snakefile", "config", "workflow", "profiles", "src"):
         source = HOUSE / name
         if source.is_dir():
             shutil.copytree(source, root / name, ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))

@@ -19,8 +19,8 @@ except SoftkinError as error:
 PACKAGE = Path(softkin.__file__).parent
 PUBLISHED = Path(workflow.basedir) / "config" / "published"
 RUN = "results/{dataset}/{model}/{preset}"
-# For `--software-deployment-method conda`: the name of an environment made from environment.txt. Unused otherwise.
-SOFTWARE = "softkin"
+# For `--software-deployment-method conda`; unused otherwise.
+SOFTWARE = "../envs/softkin.yaml"
 HEADLINE = "results/tables/headline.txt"
 TABLES = [
     "point_metrics.csv",
