@@ -31,4 +31,5 @@ rule all:
 
 
 onsuccess:
-    print(Path(HEADLINE).read_text(encoding="utf-8"))
+    if Path(HEADLINE).exists():  # a run for a single file has none
+        print(Path(HEADLINE).read_text(encoding="utf-8"))

@@ -57,6 +57,17 @@ def test_the_run_ends_with_the_headline(house: House) -> None:
     assert "make ui" in text
 
 
+def test_a_single_file_can_be_asked_for(house: House, tmp_path: Path) -> None:
+    done = house.snakemake("results/finger/lr/paper/predictions.parquet", work=tmp_path)
+    assert done.returncode == 0
+    assert "Error" not in done.stdout + done.stderr
+    assert (tmp_path / "results" / "finger" / "lr" / "paper" / "predictions.parquet").exists()
+
+
+def test_the_profile_is_found_without_being_named(house: House) -> None:
+    assert "profiles/default" in (house.work / "first_run.txt").read_text()
+
+
 def test_every_job_left_its_log(house: House) -> None:
     logs = {path.relative_to(house.work / "results" / "logs") for path in (house.work / "results").rglob("*.log")}
     assert {Path("tune/finger/svr.log"), Path("predict/finger/gp/paper.log"), Path("track/finger.log")} <= logs
