@@ -1,7 +1,7 @@
 # softkin: from published data to a calibrated forward kinematics. `snakemake --cores 2` is all it takes.
 #
 #     retrieve -> prepare -> tune -> fit -> predict -> score -> tables
-#                                                        \--> track (MLflow)
+#                        \-> quantiles -\-> intervals -> score /  \-> track (MLflow)
 from pathlib import Path
 
 from snakemake.utils import min_version
@@ -20,6 +20,8 @@ include: "workflow/rules/tune.smk"
 include: "workflow/rules/fit.smk"
 include: "workflow/rules/predict.smk"
 include: "workflow/rules/score.smk"
+include: "workflow/rules/quantiles.smk"
+include: "workflow/rules/intervals.smk"
 include: "workflow/rules/tables.smk"
 include: "workflow/rules/track.smk"
 

@@ -15,7 +15,8 @@ from softkin.interface import SoftkinError
 
 
 def check_configuration(config: Mapping[str, Any], schema: str | Path, registries: Mapping[str, Iterable[str]]) -> None:
-    """Check `config` against the YAML `schema`, and the names in it against the `registries`: models and formats.
+    """Check `config` against the YAML `schema`, and the names in it against the `registries`: of models,
+    formats, interval methods and learners of quantiles.
 
     Raises:
         SoftkinError: lists every problem: the key, what is wrong, and for an unknown key its likely spelling.
@@ -32,6 +33,13 @@ def _unknown_names(config: Mapping[str, Any], registries: Mapping[str, Iterable[
     sources = config["sources"]
     names = [("datasets", "entry of config/datasets.yaml", dataset, sources) for dataset in config["datasets"]]
     names += [("models", "model of the registry", model, registries["models"]) for model in config["models"]]
+    names += [
+        ("interval_methods", "known method", name, registries["interval_methods"])
+        for name in config["interval_methods"]
+    ]
+    names += [
+        ("quantile_models", "known learner", name, registries["quantile_models"]) for name in config["quantile_models"]
+    ]
     for dataset, source in sources.items():
         place = f"sources.{dataset}"
         names.append((f"{place}.format", "known format", source["format"], registries["formats"]))
@@ -39,6 +47,9 @@ def _unknown_names(config: Mapping[str, Any], registries: Mapping[str, Iterable[
             (f"{place}.paper_params", "model of the registry", model, registries["models"])
             for model in source.get("paper_params", {})
         ]
+    levels = list(config["confidence_levels"])
+    if levels != sorted(levels):
+        yield f"confidence_levels: {levels} are not ascending; write {sorted(levels)}"
     for place, kind, name, known in names:
         if name not in known:
             yield f"{place}: '{name}' is no {kind} ({', '.join(known)}){_guess(name, list(known))}"

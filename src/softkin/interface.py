@@ -6,7 +6,7 @@ Array shapes, stated once: commands ``(n_rows, n_commands)``; positions ``(n_row
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -72,3 +72,45 @@ def coordinate_columns(n_markers: int) -> list[str]:
 def informative_coordinates(train_positions: Array) -> NDArray[np.bool_]:
     """Mask (n_coordinates,) of the coordinates that move on `train` (range above `CONSTANT_RANGE_MM`)."""
     return np.asarray(np.ptp(train_positions, axis=0) > CONSTANT_RANGE_MM)
+
+
+@dataclass(frozen=True, slots=True)
+class QuantileSpec:
+    """One learner of quantiles. `build(params, quantiles, seed, threads)` returns an unfitted regressor of one
+    coordinate, in standardised space, that predicts (n_rows, n_quantiles).
+    """
+
+    name: str
+    title: str
+    build: Callable[[Params, Sequence[float], int, int], Any]
+    paper_params: Params
+
+
+@dataclass(frozen=True, slots=True)
+class Evidence:
+    """What an interval method sees of one fitted model: its output on `validation` with the truth, and on new rows.
+
+    `calibration` and `new` are predicted positions (n_rows, n_coordinates) for a method on predictions, or predicted
+    quantiles (n_levels, n_rows, n_coordinates, 2) for a method on quantiles; `truth` is (n_calibration,
+    n_coordinates); all in mm.
+    """
+
+    calibration: Array
+    truth: Array
+    new: Array
+
+
+@dataclass(frozen=True, slots=True)
+class IntervalMethod:
+    """One way to put an interval around a predicted position.
+
+    `intervals(evidence, confidence_levels)` returns (n_levels, n_rows, n_coordinates, 2), lower and upper in mm,
+    levels ascending. `on` says what it starts from: `predictions` or `quantiles`. `guaranteed` says whether its
+    coverage of a coordinate is at least the level for rows exchangeable with those of `validation`.
+    """
+
+    name: str
+    title: str
+    on: str
+    guaranteed: bool
+    intervals: Callable[[Evidence, Sequence[float]], Array]

@@ -10,7 +10,9 @@ import yaml
 from softkin.configuration import check_configuration
 from softkin.datasets import READERS
 from softkin.interface import SoftkinError
+from softkin.intervals import INTERVAL_METHODS
 from softkin.models import MODELS
+from softkin.quantile_models import QUANTILE_MODELS
 from tests.conftest import HOUSE
 
 SCHEMA = HOUSE / "workflow" / "schemas" / "config.schema.yaml"
@@ -20,7 +22,9 @@ for name in ("config", "datasets"):
 
 
 def check(config: dict[str, Any]) -> None:
-    check_configuration(config, SCHEMA, {"models": MODELS, "formats": READERS})
+    registries: dict[str, Any] = {"models": MODELS, "formats": READERS}
+    registries |= {"interval_methods": INTERVAL_METHODS, "quantile_models": QUANTILE_MODELS}
+    check_configuration(config, SCHEMA, registries)
 
 
 def test_the_shipped_configuration_is_good() -> None:
@@ -40,6 +44,10 @@ def test_the_shipped_configuration_is_good() -> None:
         (lambda c: c.update(models=["svm"]), ["models: 'svm' is no model", "did you mean 'svr'?"]),
         (lambda c: c.update(presets=["tunde"]), ["presets.0", "did you mean 'tuned'?"]),
         (lambda c: c.update(datasets=["fingers"]), ["datasets: 'fingers'", "did you mean 'finger'?"]),
+        (lambda c: c.update(interval_methods=["scp_mapy"]), ["did you mean 'scp_mapie'?"]),
+        (lambda c: c.update(quantile_models=["xbg"]), ["did you mean 'xgb'?"]),
+        (lambda c: c.update(confidence_levels=[0.9, 0.8]), ["not ascending", "[0.8, 0.9]"]),
+        (lambda c: c.update(confidence_levels=[90]), ["confidence_levels.0", "90"]),
         (lambda c: c["sources"]["finger"].update(sha256="abc"), ["sources.finger.sha256"]),
         (lambda c: c["sources"]["finger"].update(position_unit="inch"), ["sources.finger.position_unit", "mm"]),
         (lambda c: c["sources"]["finger"].update(format="kin_json"), ["did you mean 'kinn_json'?"]),

@@ -1,17 +1,26 @@
 # The configuration, checked; the lists that it spans; the paths that more than one stage needs.
+import sys
+
 from snakemake.exceptions import WorkflowError
 
 import softkin
 from softkin.configuration import check_configuration
 from softkin.datasets import READERS
 from softkin.interface import PAPER, PRESETS, SoftkinError, TUNED
+from softkin.intervals import INTERVAL_METHODS
 from softkin.models import MODELS, source_files
+from softkin.quantile_models import QUANTILE_MODELS
 
 try:
     check_configuration(
         config,
         Path(workflow.basedir) / "workflow" / "schemas" / "config.schema.yaml",
-        {"models": MODELS, "formats": READERS},
+        {
+            "models": MODELS,
+            "formats": READERS,
+            "interval_methods": INTERVAL_METHODS,
+            "quantile_models": QUANTILE_MODELS,
+        },
     )
 except SoftkinError as error:
     raise WorkflowError(str(error)) from None
@@ -25,7 +34,9 @@ HEADLINE = "results/tables/headline.txt"
 TABLES = [
     "point_metrics.csv",
     "marker_errors.csv",
+    "interval_metrics.csv",
     "published_comparison.csv",
+    "published_intervals.csv",
     *(["published_columns.csv", "selection.csv"] if TUNED in config["presets"] else []),
 ]
 
@@ -34,6 +45,8 @@ wildcard_constraints:
     dataset="|".join(config["sources"]),
     model="|".join(MODELS),
     preset="|".join(PRESETS),
+    interval_method="|".join(INTERVAL_METHODS),
+    quantile_model="|".join(QUANTILE_MODELS),
 
 
 def package(*modules):
@@ -65,6 +78,47 @@ def run_files(name, presets=tuple(PRESETS)):
         for model, preset in every_run()
         if preset in presets
     ]
+
+
+def interval_runs(interval_method):
+    """[model, preset] of each model that an interval method is put around."""
+    on_quantiles = [[name, PAPER] for name in config["quantile_models"]]
+    return {"predictions": every_run(), "quantiles": on_quantiles}[
+        INTERVAL_METHODS[interval_method].on
+    ]
+
+
+def interval_sources(wildcards):
+    """The files an interval method starts from, in the order of `interval_runs`."""
+    pattern = {
+        "predictions": "results/{dataset}/{model}/{preset}/predictions.parquet",
+        "quantiles": "results/{dataset}/quantiles/{model}/{preset}/quantiles.parquet",
+    }[INTERVAL_METHODS[wildcards.interval_method].on]
+    return [
+        pattern.format(dataset=wildcards.dataset, model=model, preset=preset)
+        for model, preset in interval_runs(wildcards.interval_method)
+    ]
+
+
+def interval_runs_of(wildcards):
+    """`interval_runs` of the wildcard's method."""
+    return interval_runs(wildcards.interval_method)
+
+
+def interval_code(wildcards):
+    """The file that defines one interval method."""
+    return Path(
+        sys.modules[
+            INTERVAL_METHODS[wildcards.interval_method].intervals.__module__
+        ].__file__
+    )
+
+
+def quantile_code(wildcards):
+    """The file that defines one learner of quantiles."""
+    return Path(
+        sys.modules[QUANTILE_MODELS[wildcards.quantile_model].build.__module__].__file__
+    )
 
 
 def of_every_dataset(patterns):

@@ -4,13 +4,16 @@ rule tables:
     input:
         point=of_every_dataset("results/{dataset}/point_metrics.csv"),
         markers=of_every_dataset("results/{dataset}/marker_errors.csv"),
+        intervals=of_every_dataset("results/{dataset}/interval_metrics.csv"),
         descriptions=of_every_dataset("results/{dataset}/dataset.json"),
         parameters=of_every_dataset(run_files("parameters.json", [TUNED])),
         published=PUBLISHED / "point_metrics.csv",
         subsets=PUBLISHED / "subsets.csv",
+        published_intervals=PUBLISHED / "interval_metrics.csv",
         code=package(
             "tables/build.py",
             "tables/published.py",
+            "tables/published_intervals.py",
             "tables/selection.py",
             "tables/paper_layout.py",
             "tables/headline.py",

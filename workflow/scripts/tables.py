@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from softkin.intervals import INTERVAL_METHODS
 from softkin.job import job
 from softkin.models import MODELS
 from softkin.tables.build import build_tables
@@ -10,6 +11,7 @@ with job(snakemake.log[0], "tables"):
     build_tables(
         point=snakemake.input.point,
         markers=snakemake.input.markers,
+        intervals=snakemake.input.intervals,
         descriptions=snakemake.input.descriptions,
         parameters=snakemake.input.parameters,
         studies=[tuple(study) for study in snakemake.params.studies],
@@ -17,5 +19,7 @@ with job(snakemake.log[0], "tables"):
         model_titles={name: spec.title for name, spec in MODELS.items()},
         published=snakemake.input.published,
         published_subsets=snakemake.input.subsets,
+        published_intervals=snakemake.input.published_intervals,
+        interval_titles={name: method.title for name, method in INTERVAL_METHODS.items()},
         folder=Path(snakemake.output.headline).parent,
     )

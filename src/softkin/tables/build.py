@@ -12,6 +12,7 @@ from softkin.files import read_json, replacing, write_text
 from softkin.tables.headline import headline
 from softkin.tables.paper_layout import SUBSET_TITLES, PaperTable, comparison_table, subset_table
 from softkin.tables.published import compare, compare_columns, read_published, summary
+from softkin.tables.published_intervals import compare_intervals, read_published_intervals, table_6
 from softkin.tables.selection import selection
 
 
@@ -19,6 +20,7 @@ def build_tables(
     *,
     point: Sequence[str | Path],
     markers: Sequence[str | Path],
+    intervals: Sequence[str | Path],
     descriptions: Sequence[str | Path],
     parameters: Sequence[str | Path],
     studies: Sequence[tuple[str, str]],
@@ -26,12 +28,14 @@ def build_tables(
     model_titles: Mapping[str, str],
     published: str | Path,
     published_subsets: str | Path,
+    published_intervals: str | Path,
+    interval_titles: Mapping[str, str],
     folder: Path,
 ) -> None:
     """Write every table into `folder`.
 
-    `point`, `markers` and `descriptions` hold one file per dataset; `parameters` one per (dataset, model) of `studies`,
-    or none when nothing was tuned; `sources` are the datasets' entries of config/datasets.yaml.
+    `point`, `markers`, `intervals` and `descriptions` hold one file per dataset; `parameters` one per (dataset, model)
+    of `studies`, or none when nothing was tuned; `sources` are the datasets' entries of config/datasets.yaml.
     """
     scores = pd.concat([pd.read_csv(path) for path in point], ignore_index=True)
     per_marker = pd.concat([pd.read_csv(path) for path in markers], ignore_index=True)
@@ -44,7 +48,11 @@ def build_tables(
         tuned = [read_json(path)["cv_mae_mm"] for path in parameters]
         chosen = selection(dict(zip(studies, tuned, strict=True)))
 
+    interval_scores = pd.concat([pd.read_csv(path) for path in intervals], ignore_index=True)
+    interval_cells = compare_intervals(read_published_intervals(published_intervals), interval_scores, scores)
+
     frames = {"point_metrics": scores, "marker_errors": per_marker, "published_comparison": cells}
+    frames |= {"interval_metrics": interval_scores, "published_intervals": interval_cells}
     frames |= {} if columns is None or chosen is None else {"published_columns": columns, "selection": chosen}
     for name, frame in frames.items():
         with replacing(folder / f"{name}.csv") as temporary:
@@ -52,6 +60,9 @@ def build_tables(
 
     laid_out = [subset_table(abouts, pd.read_csv(published_subsets))]
     laid_out += _comparisons(scores, cells, notes, sources, model_titles)
+    if len(interval_cells):
+        titles = {name: entry["title"] for name, entry in sources.items()}
+        laid_out.append(table_6(interval_cells, titles, dict(interval_titles)))
     sentences = summary(cells, columns)
     write_text(folder / "paper_tables.md", "\n".join([_preface(sentences), *(table.markdown() for table in laid_out)]))
     write_text(folder / "paper_tables.tex", "\n".join(table.latex() for table in laid_out))
@@ -86,7 +97,7 @@ def _comparisons(
 
 
 def _preface(sentences: Sequence[str]) -> str:
-    lines = ["# The paper's Tables 2 to 5 beside ours", "", *(f"- {sentence}" for sentence in sentences), ""]
+    lines = ["# The paper's Tables 2 to 6 beside ours", "", *(f"- {sentence}" for sentence in sentences), ""]
     explanation = (
         "Each metric has three columns: the cell as printed, our paper preset (the paper's settings), our tuned "
         "preset. The best cell of each column is bold. Errors are averaged over coordinates, those that never move "

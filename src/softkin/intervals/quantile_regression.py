@@ -1,0 +1,16 @@
+"""Quantile regression: the interval between two predicted quantiles, with nothing to correct it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from softkin.conformal import nested, uncrossed
+from softkin.interface import Array, Evidence, IntervalMethod
+
+
+def intervals(evidence: Evidence, confidence_levels: Sequence[float]) -> Array:
+    """The predicted quantiles at alpha/2 and 1 - alpha/2 of each level; where they cross, in order."""
+    return nested(uncrossed(evidence.new))
+
+
+METHOD = IntervalMethod("qr", "QR", on="quantiles", guaranteed=False, intervals=intervals)
