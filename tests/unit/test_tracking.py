@@ -15,7 +15,8 @@ from mlflow.entities import ViewType
 
 from softkin.files import read_json, write_json
 from softkin.interface import SUBSETS, SoftkinError
-from softkin.tracking import CONTENT, KEY, PARENT, Campaign, create_store, log_dataset
+from softkin.tracking import Campaign, create_store, log_dataset, log_intervals
+from softkin.tracking.store import CONTENT, KEY, PARENT
 
 ABOUT = {"dataset": "finger", "title": "FINGER", "sha256": "ab" * 32, "n_commands": 2, "n_markers": 1}
 
@@ -148,3 +149,48 @@ def test_keys_are_tags_that_can_be_searched(campaign: Campaign, results: dict[st
     run = MlflowClient(campaign.tracking_uri).get_run(logged["svr/paper"])
     assert run.data.tags[KEY] == "nightly/finger/svr/paper"
     assert read_json(results["description"])["dataset"] == "finger"
+
+
+@pytest.fixture
+def interval_metrics(tmp_path: Path) -> Path:
+    rows = []
+    for method in ("qr", "scp_mapie"):
+        for subset in ("test", "extrapolation"):
+            for coordinate in ("m1_x", "mean_informative", "joint"):
+                key = {"dataset": "finger", "subset": subset, "model": "svr", "preset": "tuned"}
+                values = {"coverage": 0.91, "mean_width_mm": 2.0, "infinite_share": 0.0, "crossing_share": 0.0}
+                values["winkler_mm"] = float("inf") if coordinate == "joint" else 3.0
+                rows.append(
+                    key | {"interval_method": method, "coordinate": coordinate, "confidence_level": 0.9} | values
+                )
+    pd.DataFrame(rows).to_csv(tmp_path / "intervals.csv", index=False)
+    return tmp_path / "intervals.csv"
+
+
+def test_interval_runs_hang_on_their_model_and_are_logged_once(
+    campaign: Campaign, results: dict[str, Any], interval_metrics: Path
+) -> None:
+    logged = log_dataset(campaign, **results)
+    assert log_intervals(campaign, dataset="finger", metrics=interval_metrics, parents=logged) == 2
+    before = snapshot(campaign)
+    nested = [run for run in before.values() if run["data"]["tags"].get("interval_method") == "scp_mapie"]
+    assert [run["data"]["tags"][PARENT] for run in nested] == [logged["svr/tuned"]]
+    assert nested[0]["data"]["metrics"]["test/coverage_90"] == 0.91
+    assert nested[0]["data"]["metrics"]["extrapolation/joint_coverage_90"] == 0.91
+    assert "test/joint_winkler_mm_90" not in nested[0]["data"]["metrics"]
+    log_intervals(campaign, dataset="finger", metrics=interval_metrics, parents=log_dataset(campaign, **results))
+    assert snapshot(campaign) == before
+
+
+def test_interval_runs_follow_a_replaced_model_and_leave_with_their_method(
+    campaign: Campaign, results: dict[str, Any], interval_metrics: Path
+) -> None:
+    first = log_dataset(campaign, **results)
+    log_intervals(campaign, dataset="finger", metrics=interval_metrics, parents=first)
+    Path(results["runs"]["svr", "tuned"]["predictions"]).write_text("moved")
+    second = log_dataset(campaign, **results)
+    table = pd.read_csv(interval_metrics)
+    table[table["interval_method"] == "qr"].to_csv(interval_metrics, index=False)
+    assert log_intervals(campaign, dataset="finger", metrics=interval_metrics, parents=second) == 1
+    nested = [run for run in snapshot(campaign).values() if "interval_method" in run["data"]["tags"]]
+    assert [run["data"]["tags"][PARENT] for run in nested] == [second["svr/tuned"]]

@@ -6,6 +6,7 @@ import shutil
 import sqlite3
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import pytest
 from mlflow import MlflowClient
@@ -57,6 +58,23 @@ def test_the_run_ends_with_the_headline(house: House) -> None:
     assert "make ui" in text
 
 
+def test_interval_metrics_have_a_row_for_everything(house: House) -> None:
+    table = pd.read_csv(house.work / "results" / "tables" / "interval_metrics.csv")
+    keys = ["dataset", "subset", "model", "preset", "interval_method", "coordinate", "confidence_level"]
+    assert not table.duplicated(keys).any()
+    assert len(table) == 2 * 2 * (2 * 16 + 2 * 2) * 6 * 3
+    assert set(table["interval_method"]) == {"qr", "cqr", "scp_mapie", "scp_crepes"}
+    engines = table[table["interval_method"].str.startswith("scp")].pivot(
+        index=[key for key in keys if key != "interval_method"], columns="interval_method", values="winkler_mm"
+    )
+    np.testing.assert_allclose(engines["scp_mapie"], engines["scp_crepes"], rtol=1e-9)
+    text = (house.work / "results" / "tables" / "paper_tables.md").read_text()
+    assert "### Table 6" in text
+    published = pd.read_csv(house.work / "results" / "tables" / "published_intervals.csv")
+    assert len(published) == 8  # FINGER: four methods, coverage and Winkler score
+    assert published["explanation"].str.contains("nearest single coordinate").all()
+
+
 def test_a_single_file_can_be_asked_for(house: House, tmp_path: Path) -> None:
     done = house.snakemake("results/finger/lr/paper/predictions.parquet", work=tmp_path)
     assert done.returncode == 0
@@ -78,6 +96,9 @@ def test_the_store_holds_a_child_run_per_model_and_preset(house: House) -> None:
     for dataset in DATASETS:
         experiment = client.get_experiment_by_name(dataset)
         runs = client.search_runs([experiment.experiment_id], max_results=100)
+        nested = [run for run in runs if "interval_method" in run.data.tags]
+        assert len(nested) == 2 * 16 + 2 * 2  # SCP by two engines on every run; QR and CQR on two learners
+        assert {run.data.tags["mlflow.parentRunId"] for run in nested} <= {run.info.run_id for run in runs}
         parents = [run for run in runs if "mlflow.parentRunId" not in run.data.tags]
         assert len(parents) == 1
         children = [run for run in runs if run.data.tags.get("mlflow.parentRunId") == parents[0].info.run_id]
@@ -106,6 +127,7 @@ def test_editing_a_model_reruns_its_jobs_and_no_others(house: House) -> None:
         jobs = house.jobs()
     finally:
         file.write_text(original)
+    jobs = [job for job in jobs if job[0] not in ("intervals", "score_intervals")]
     per_model = {job for job in jobs if job[0] in ("tune", "fit_paper", "fit_tuned", "predict")}
     assert {rule for rule, _ in per_model} == {"tune", "fit_paper", "fit_tuned", "predict"}
     assert all("model=svr" in wildcards for _, wildcards in per_model)
@@ -118,7 +140,9 @@ def test_editing_a_model_reruns_its_jobs_and_no_others(house: House) -> None:
     [
         ("metrics/point.py", {"score", "tables", "track"}),
         ("tables/published.py", {"tables"}),
-        ("tracking.py", {"track"}),
+        ("tracking/store.py", {"track"}),
+        ("intervals/split_conformal_crepes.py", {"intervals", "score_intervals", "tables", "track"}),
+        ("metrics/interval.py", {"score_intervals", "tables", "track"}),
     ],
 )
 def test_editing_a_later_stage_refits_nothing(house: House, module: str, rules: set[str]) -> None:

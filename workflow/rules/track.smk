@@ -22,7 +22,8 @@ rule track:
         fit=run_files("fit.json"),
         parameters=run_files("parameters.json", [TUNED]),
         trials=run_files("trials.csv", [TUNED]),
-        code=package("tracking.py"),
+        intervals="results/{dataset}/interval_metrics.csv",
+        code=package("tracking/store.py", "tracking/models.py", "tracking/intervals.py"),
     output:
         "results/{dataset}/mlflow_runs.json",
     log:

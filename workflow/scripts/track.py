@@ -2,7 +2,7 @@
 
 from softkin.files import write_json
 from softkin.job import job
-from softkin.tracking import Campaign, log_dataset
+from softkin.tracking import Campaign, log_dataset, log_intervals
 
 given = snakemake.input
 runs = {
@@ -20,4 +20,6 @@ with job(snakemake.log[0], f"track {snakemake.wildcards.dataset}"):
         artifacts="mlartifacts",
     )
     logged = log_dataset(campaign, description=given.description, point=given.point, runs=runs)
-    write_json(snakemake.output[0], logged)
+    dataset = snakemake.wildcards.dataset
+    n_intervals = log_intervals(campaign, dataset=dataset, metrics=given.intervals, parents=logged)
+    write_json(snakemake.output[0], {"runs": logged, "interval_runs": n_intervals})

@@ -1,0 +1,9 @@
+"""Result files -> MLflow. The only package that imports mlflow for logging; computing jobs never do."""
+
+from __future__ import annotations
+
+from softkin.tracking.intervals import log_intervals
+from softkin.tracking.models import log_dataset
+from softkin.tracking.store import Campaign, create_store
+
+__all__ = ["Campaign", "create_store", "log_dataset", "log_intervals"]

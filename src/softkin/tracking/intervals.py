@@ -1,0 +1,74 @@
+"""A run per model, preset and interval method, nested under the run of its model."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from softkin.interface import TEST
+from softkin.tracking.store import NOTE, PARENT, Campaign, Record, client_of, delete, experiment_of, find, put
+
+#: Rows of interval_metrics.csv that become metrics -> what their names start with.
+SHOWN = {"mean_informative": "", "joint": "joint_"}
+METRICS = ("coverage", "mean_width_mm", "winkler_mm", "infinite_share", "crossing_share")
+
+
+def log_intervals(campaign: Campaign, *, dataset: str, metrics: str | Path, parents: Mapping[str, str]) -> int:
+    """Log the dataset's interval metrics; return how many runs there are.
+
+    `parents` is 'model/preset' -> run id of the model, as `log_dataset` returns it. QR and CQR hang on the model of
+    their learner's name.
+    """
+    client = client_of(campaign.tracking_uri)
+    experiment = experiment_of(client, dataset, campaign.artifacts)
+    kept = set()
+    for (model, preset, method), rows in pd.read_csv(metrics).groupby(["model", "preset", "interval_method"]):
+        parent = parents.get(f"{model}/{preset}", parents["campaign"])
+        kept.add(
+            put(client, experiment, _record(campaign, dataset, str(model), str(preset), str(method), rows, parent))
+        )
+    there = find(client, experiment, campaign=campaign.name, kind="intervals")
+    delete(client, [run for run in there if run.info.run_id not in kept])
+    return len(kept)
+
+
+def _record(
+    campaign: Campaign, dataset: str, model: str, preset: str, method: str, rows: pd.DataFrame, parent: str
+) -> Record:
+    table = rows.to_csv(index=False)
+    return Record(
+        key=f"{campaign.name}/{dataset}/{model}/{preset}/{method}",
+        name=f"{dataset} · {model} · {preset} · {method}",
+        content={"parent": parent, "table": table},
+        tags={
+            PARENT: parent,
+            "kind": "intervals",
+            "campaign": campaign.name,
+            "dataset": dataset,
+            "model": model,
+            "preset": preset,
+            "interval_method": method,
+            NOTE: _note(rows, method),
+        },
+        metrics=_metrics(rows),
+        texts={"interval_metrics.csv": table},
+    )
+
+
+def _metrics(rows: pd.DataFrame) -> dict[str, float]:
+    """test/coverage_90, test/joint_coverage_90, extrapolation/winkler_mm_90, ...; finite ones only."""
+    values = {}
+    for row in rows[rows["coordinate"].isin(SHOWN)].to_dict("records"):
+        for metric in METRICS:
+            percent = f"{100 * row['confidence_level']:g}"
+            values[f"{row['subset']}/{SHOWN[row['coordinate']]}{metric}_{percent}"] = float(row[metric])
+    return {name: value for name, value in values.items() if np.isfinite(value)}
+
+
+def _note(rows: pd.DataFrame, method: str) -> str:
+    shown = rows[(rows["coordinate"] == "mean_informative") & (rows["subset"] == TEST)]
+    parts = [f"{row.confidence_level:.0%}: covers {row.coverage:.1%}" for row in shown.itertuples()]
+    return f"Intervals by **{method}**, on test, averaged over moving coordinates. {', '.join(parts)}."

@@ -1,0 +1,136 @@
+"""The store, and how a run gets into it once.
+
+Runs are found again by the tag `softkin.key`, and replaced only when `softkin.content`, a hash over what the run
+shows (timings apart), has changed. So logging twice changes nothing.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import logging
+import os
+import sqlite3
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+os.environ.setdefault("MLFLOW_DISABLE_TELEMETRY", "true")
+
+from filelock import FileLock
+from mlflow import MlflowClient
+from mlflow.entities import DatasetInput, Metric, Param, Run
+
+from softkin.interface import SoftkinError
+
+logger = logging.getLogger("softkin")
+
+KEY, CONTENT, PARENT, NOTE = "softkin.key", "softkin.content", "mlflow.parentRunId", "mlflow.note.content"
+SQLITE = "sqlite:///"
+#: The store takes a thousand metrics a batch.
+BATCH = 900
+
+
+@dataclass(frozen=True, slots=True)
+class Campaign:
+    """One complete run of the workflow on one configuration: name, seed, where its store and artifacts are."""
+
+    name: str
+    seed: int
+    tracking_uri: str
+    artifacts: str
+
+
+@dataclass(frozen=True, slots=True)
+class Record:
+    """What one run shows. `content` is what a change of makes it a new run; `texts` and `files` become artifacts."""
+
+    key: str
+    name: str
+    content: Any
+    tags: Mapping[str, str]
+    metrics: Mapping[str, float] = field(default_factory=dict)
+    curves: Sequence[tuple[str, int, float]] = ()
+    params: Mapping[str, Any] = field(default_factory=dict)
+    inputs: Sequence[DatasetInput] = ()
+    files: Sequence[str] = ()
+    texts: Mapping[str, str] = field(default_factory=dict)
+
+
+def create_store(tracking_uri: str) -> None:
+    """Create the store if there is none. One job does this before any other opens it: first use is a race."""
+    if tracking_uri.startswith(SQLITE):
+        file = Path(tracking_uri.removeprefix(SQLITE)).resolve()
+        with FileLock(f"{file}.lock"):
+            MlflowClient(tracking_uri).search_experiments(max_results=1)
+            connection = sqlite3.connect(file)
+            connection.execute("PRAGMA journal_mode=WAL")
+            connection.close()
+    else:
+        MlflowClient(tracking_uri).search_experiments(max_results=1)
+    logger.info("the MLflow store is %s", tracking_uri)
+
+
+def client_of(tracking_uri: str) -> MlflowClient:
+    """A client of a store that exists.
+
+    Raises:
+        SoftkinError: the store is gone.
+    """
+    if tracking_uri.startswith(SQLITE) and not Path(tracking_uri.removeprefix(SQLITE)).exists():
+        raise SoftkinError(f"the MLflow store {tracking_uri} is gone; mend: `make store` makes it anew from results/")
+    return MlflowClient(tracking_uri)
+
+
+def experiment_of(client: MlflowClient, dataset: str, artifacts: str) -> str:
+    """Id of the dataset's experiment; created, or restored, when it is not there."""
+    found = client.get_experiment_by_name(dataset)
+    if found is not None and found.lifecycle_stage == "deleted":
+        client.restore_experiment(found.experiment_id)
+    if found is not None:
+        return str(found.experiment_id)
+    location = (Path(artifacts) / dataset).resolve().as_uri()
+    return str(client.create_experiment(dataset, artifact_location=location))
+
+
+def put(client: MlflowClient, experiment: str, record: Record) -> str:
+    """Id of the run that shows `record`: the one that is there, or a new one in place of it."""
+    content = hashlib.sha256(json.dumps(record.content, sort_keys=True).encode()).hexdigest()
+    old = find(client, experiment, **{KEY: record.key})
+    current = [run for run in old if run.data.tags.get(CONTENT) == content and run.info.status == "FINISHED"]
+    if current:
+        delete(client, [run for run in old if run is not current[0]])
+        return str(current[0].info.run_id)
+    run_id = str(client.create_run(experiment, run_name=record.name, tags={KEY: record.key, **record.tags}).info.run_id)
+    now = int(time.time() * 1000)
+    metrics = [Metric(name, value, now, 0) for name, value in record.metrics.items()]
+    metrics += [Metric(name, value, now, step) for name, step, value in record.curves]
+    for start in range(0, len(metrics), BATCH):
+        client.log_batch(run_id, metrics=metrics[start : start + BATCH])
+    if record.params:
+        client.log_batch(run_id, params=[Param(name, str(value)) for name, value in record.params.items()])
+    if record.inputs:
+        client.log_inputs(run_id, list(record.inputs))
+    for file in record.files:
+        client.log_artifact(run_id, file)
+    for name, text in record.texts.items():
+        client.log_text(run_id, text, name)
+    # The content tag comes last: a run cut off before it is not taken for whole.
+    client.set_tag(run_id, CONTENT, content)
+    client.set_terminated(run_id)
+    delete(client, old)
+    return run_id
+
+
+def find(client: MlflowClient, experiment: str, **tags: str) -> list[Run]:
+    """The experiment's runs with these tags."""
+    query = " and ".join(f"tags.`{name}` = '{value}'" for name, value in tags.items())
+    return list(client.search_runs([experiment], query, max_results=1000))
+
+
+def delete(client: MlflowClient, runs: Sequence[Run]) -> None:
+    """Mark runs as deleted."""
+    for run in runs:
+        client.delete_run(run.info.run_id)
