@@ -30,7 +30,7 @@ def headline(selected: pd.DataFrame | None, point: pd.DataFrame, sentences: Sequ
     lines += [
         "",
         "  results/tables/          the tables, as CSV, Markdown and LaTeX",
-        "  results/tables/paper_tables.md   the paper's Tables 2 to 5 beside ours",
+        "  results/tables/paper_tables.md   the paper's Tables 2 to 6 beside ours",
         "  make ui                  browse every run in the MLflow UI",
         "",
     ]
