@@ -25,7 +25,7 @@ HOUSE = Path(__file__).resolve().parent.parent
 def fit_cpu_seconds(results: Path) -> float:
     """CPU seconds that went into trials and fits."""
     trials = sum(json.loads(path.read_text())["cpu_seconds"] for path in results.glob("*/*/tuned/parameters.json"))
-    return trials + sum(json.loads(path.read_text())["fit_cpu_seconds"] for path in results.glob("*/*/*/fit.json"))
+    return trials + sum(json.loads(path.read_text())["fit_cpu_seconds"] for path in results.glob("*/**/fit.json"))
 
 
 def slowest_jobs(benchmarks: Path, count: int = 10) -> pd.DataFrame:

@@ -1,4 +1,4 @@
-"""What every conformal method needs: the exact rank, a level that no engine can round wrongly, nested intervals."""
+"""What every conformal method needs: the exact rank, and a level that no engine can round wrongly."""
 
 from __future__ import annotations
 
@@ -41,16 +41,17 @@ def columns(array: Array) -> list[Array]:
     return list(array.T)
 
 
-def nested(intervals: Array) -> Array:
-    """Widen (n_levels, ..., 2), levels ascending, where a wider level does not contain a narrower one."""
-    lower = np.minimum.accumulate(intervals[..., 0], axis=0)
-    upper = np.maximum.accumulate(intervals[..., 1], axis=0)
-    return np.stack([lower, upper], axis=-1)
-
-
 def uncrossed(quantiles: Array) -> Array:
     """Quantiles (..., 2) with lower and upper in order: where two predicted quantiles cross, they are exchanged."""
     return np.sort(quantiles, axis=-1)
+
+
+def closed(intervals: Array) -> Array:
+    """Intervals (..., 2) with an empty one, lower above upper, closed to its middle."""
+    result = intervals.copy()
+    empty = intervals[..., 0] > intervals[..., 1]
+    result[empty] = intervals[empty].mean(axis=-1, keepdims=True)
+    return result
 
 
 @contextmanager

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from softkin.conformal import columns, conformal_rank, engine_level, nested
+from softkin.conformal import closed, columns, conformal_rank, engine_level
 
 ALPHAS = ("0.01", "0.05", "0.1", "0.2", "0.3")
 
@@ -40,13 +40,13 @@ def test_a_calibration_set_that_is_too_small_has_no_rank() -> None:
     assert conformal_rank(18, 0.95) is None
 
 
-@given(arrays(float, (3, 4, 2, 2), elements=st.floats(-10, 10)))
-def test_nested_levels_contain_each_other_and_only_widen(intervals: np.ndarray) -> None:
-    result = nested(intervals)
-    assert (result[..., 0] <= intervals[..., 0]).all()
-    assert (result[..., 1] >= intervals[..., 1]).all()
-    assert (np.diff(result[..., 0], axis=0) <= 0).all()
-    assert (np.diff(result[..., 1], axis=0) >= 0).all()
+@given(arrays(float, (3, 4, 2), elements=st.floats(-10, 10)))
+def test_an_empty_interval_is_closed_to_its_middle_and_no_other_is_touched(intervals: np.ndarray) -> None:
+    result = closed(intervals)
+    empty = intervals[..., 0] > intervals[..., 1]
+    np.testing.assert_array_equal(result[~empty], intervals[~empty])
+    np.testing.assert_array_equal(result[empty][:, 0], result[empty][:, 1])
+    assert (result[..., 0] <= result[..., 1]).all()
 
 
 def test_engines_get_one_coordinate_at_a_time() -> None:

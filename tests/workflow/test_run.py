@@ -88,7 +88,7 @@ def test_the_profile_is_found_without_being_named(house: House) -> None:
 
 def test_every_job_left_its_log(house: House) -> None:
     logs = {path.relative_to(house.work / "results" / "logs") for path in (house.work / "results").rglob("*.log")}
-    assert {Path("tune/finger/svr.log"), Path("predict/finger/gp/paper.log"), Path("track/finger.log")} <= logs
+    assert {Path("tune/finger/svr.log"), Path("predict/finger/gp.log"), Path("track/finger.log")} <= logs
 
 
 def test_the_store_holds_a_child_run_per_model_and_preset(house: House) -> None:

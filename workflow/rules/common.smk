@@ -27,7 +27,6 @@ except SoftkinError as error:
 
 PACKAGE = Path(softkin.__file__).parent
 PUBLISHED = Path(workflow.basedir) / "config" / "published"
-RUN = "results/{dataset}/{model}/{preset}"
 # For `--software-deployment-method conda`; unused otherwise.
 SOFTWARE = "../envs/softkin.yaml"
 HEADLINE = "results/tables/headline.txt"

@@ -1,14 +1,24 @@
-# in:  a fitted model and the table of its dataset
-# out: its predictions of every subset, and how long a row takes
+# in:  the fitted models of a model's presets and the table of the dataset
+# out: their predictions of every subset, and how long a row takes
+# One job for all presets: starting one costs more than predicting.
 rule predict:
     input:
         table="results/{dataset}/table.parquet",
-        model=f"{RUN}/model.joblib",
+        models=expand(
+            "results/{{dataset}}/{{model}}/{preset}/model.joblib",
+            preset=config["presets"],
+        ),
     output:
-        predictions=f"{RUN}/predictions.parquet",
-        record=f"{RUN}/predict.json",
+        predictions=expand(
+            "results/{{dataset}}/{{model}}/{preset}/predictions.parquet",
+            preset=config["presets"],
+        ),
+        records=expand(
+            "results/{{dataset}}/{{model}}/{preset}/predict.json",
+            preset=config["presets"],
+        ),
     log:
-        "results/logs/predict/{dataset}/{model}/{preset}.log",
+        "results/logs/predict/{dataset}/{model}.log",
     priority: 20
     conda:
         SOFTWARE

@@ -3,11 +3,13 @@
 from softkin.fitting import predict
 from softkin.job import job
 
-with job(snakemake.log[0], "predict {dataset} {model} {preset}".format(**snakemake.wildcards)):
-    predict(
-        snakemake.input.table,
-        model=snakemake.input.model,
-        threads=snakemake.threads,
-        predictions=snakemake.output.predictions,
-        record=snakemake.output.record,
-    )
+files = zip(snakemake.input.models, snakemake.output.predictions, snakemake.output.records, strict=True)
+with job(snakemake.log[0], "predict {dataset} {model}".format(**snakemake.wildcards)):
+    for model, predictions, record in files:
+        predict(
+            snakemake.input.table,
+            model=model,
+            threads=snakemake.threads,
+            predictions=predictions,
+            record=record,
+        )

@@ -6,14 +6,19 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from softkin.conformal import columns, conformal_rank, engine_level, global_random_state_kept, nested, uncrossed
+from softkin.conformal import closed, columns, conformal_rank, engine_level, global_random_state_kept, uncrossed
 from softkin.interface import Array, Evidence, IntervalMethod
+
+#: The pair of quantiles that is corrected is that of the level nearest to this one, the paper's.
+BASE_LEVEL = 0.9
 
 
 def intervals(evidence: Evidence, confidence_levels: Sequence[float], *, symmetric: bool = True) -> Array:
     """Romano, Patterson and Candes (2019), Algorithm 1: one correction for both sides, calibrated per coordinate.
 
-    With `symmetric` False each side gets its own correction at half the error (their Theorem 2).
+    One calibration serves all levels: the scores of one pair of quantiles, each level taking its own rank of them, so
+    that wider levels contain narrower ones. With `symmetric` False each side gets its own correction at half the
+    error (their Theorem 2).
     Source: mapie.regression.ConformalizedQuantileRegressor with fitted quantile models. Its default correction is
     the asymmetric one. Infinite where the calibration set is too small.
     """
@@ -22,19 +27,16 @@ def intervals(evidence: Evidence, confidence_levels: Sequence[float], *, symmetr
     from softkin.estimators.column import Column
 
     n = len(evidence.truth)
-    result = np.empty(evidence.new.shape)
+    result = np.empty((len(confidence_levels), *evidence.new.shape[1:]))
     result[..., 0], result[..., 1] = -np.inf, np.inf
+    base = int(np.argmin(np.abs(np.asarray(confidence_levels) - BASE_LEVEL)))
+    pairs, new_pairs = (uncrossed(quantiles[base]) for quantiles in (evidence.calibration, evidence.new))
     for place, level in enumerate(confidence_levels):
-        side = level if symmetric else 1 - (1 - level) / 2
-        rank = conformal_rank(n, round(side, 12))
+        side = level if symmetric else round(1 - (1 - level) / 2, 12)
+        rank = conformal_rank(n, side)
         if rank is None:
             continue
         exact = engine_level(n, rank)
-        lower, upper, new_lower, new_upper = (
-            columns(quantiles[place, ..., bound])
-            for quantiles in (uncrossed(evidence.calibration), uncrossed(evidence.new))
-            for bound in (0, 1)
-        )
         for coordinate, true in enumerate(columns(evidence.truth)):
             regressor = ConformalizedQuantileRegressor(
                 [Column(0), Column(1), Column(0)],
@@ -42,12 +44,10 @@ def intervals(evidence: Evidence, confidence_levels: Sequence[float], *, symmetr
                 prefit=True,
             )
             with global_random_state_kept():
-                regressor.conformalize(np.column_stack([lower[coordinate], upper[coordinate]]), true)
-                _, bounds = regressor.predict_interval(
-                    np.column_stack([new_lower[coordinate], new_upper[coordinate]]), symmetric_correction=symmetric
-                )
+                regressor.conformalize(pairs[:, coordinate], true)
+                _, bounds = regressor.predict_interval(new_pairs[:, coordinate], symmetric_correction=symmetric)
             result[place, :, coordinate] = bounds[..., 0]
-    return nested(uncrossed(result))
+    return closed(result)
 
 
 METHOD = IntervalMethod("cqr", "CQR", on="quantiles", guaranteed=True, intervals=intervals)
