@@ -4,7 +4,7 @@ CORES ?= 2
 BIN := .venv/bin
 export MLFLOW_DISABLE_TELEMETRY := true
 
-.PHONY: run test test-run lint ui store campaigns benchmark environment clean
+.PHONY: run test test-run lint ui store campaigns benchmark coverage environment clean
 
 run: .venv/installed
 	$(BIN)/snakemake --cores $(CORES)
@@ -36,6 +36,10 @@ campaigns: .venv/installed
 # How well the default run uses the machine: fit CPU against wall time, and the ten slowest jobs.
 benchmark: .venv/installed
 	$(BIN)/python benchmarks/utilisation.py --cores $(CORES)
+
+# Whether intervals cover what they say, over random re-splits of a finished run.
+coverage: .venv/installed
+	$(BIN)/python benchmarks/coverage.py
 
 # Pin every dependency anew.
 environment: .venv/installed
