@@ -7,6 +7,7 @@ rule create_store:
         "results/logs/create_store.log",
     conda:
         SOFTWARE
+    priority: 50
     params:
         tracking_uri=config["tracking_uri"],
     script:
