@@ -19,9 +19,9 @@ def build(params: Params, seed: int, threads: int) -> Any:
 
 
 def search_space(trial: BaseTrial) -> Params:
-    """At most 300 trees of depth 6: the dearest model of the pool, 21 coordinates on ABAQUS."""
+    """At most 250 trees of depth 6: the dearest model of the pool, 21 coordinates on ABAQUS."""
     return {
-        "n_estimators": trial.suggest_int("n_estimators", 100, 300, step=50),
+        "n_estimators": trial.suggest_int("n_estimators", 100, 250, step=50),
         "learning_rate": trial.suggest_float("learning_rate", 0.03, 0.3, log=True),
         "max_depth": trial.suggest_int("max_depth", 2, 6),
         "subsample": trial.suggest_float("subsample", 0.4, 1.0),
@@ -38,6 +38,6 @@ SPEC = ModelSpec(
     search_space=search_space,
     first_trials=(
         {"n_estimators": 100, "learning_rate": 0.1, "max_depth": 3, "subsample": 1.0, "min_samples_leaf": 1},
-        {"n_estimators": 300, "learning_rate": 0.05, "max_depth": 5, "subsample": 0.5, "min_samples_leaf": 1},
+        {"n_estimators": 250, "learning_rate": 0.05, "max_depth": 5, "subsample": 0.5, "min_samples_leaf": 1},
     ),
 )

@@ -18,9 +18,9 @@ def build(params: Params, seed: int, threads: int) -> Any:
 
 
 def search_space(trial: BaseTrial) -> Params:
-    """Up to 600 rounds; depth, shrinkage and the three usual regularisers."""
+    """Up to 400 rounds; depth, shrinkage and the three usual regularisers."""
     return {
-        "n_estimators": trial.suggest_int("n_estimators", 100, 600, step=50),
+        "n_estimators": trial.suggest_int("n_estimators", 100, 400, step=50),
         "learning_rate": trial.suggest_float("learning_rate", 0.03, 0.3, log=True),
         "max_depth": trial.suggest_int("max_depth", 2, 8),
         "subsample": trial.suggest_float("subsample", 0.4, 1.0),
