@@ -5,9 +5,9 @@ rule create_store:
         "results/mlflow_store.json",
     log:
         "results/logs/create_store.log",
+    priority: 50
     conda:
         SOFTWARE
-    priority: 50
     params:
         tracking_uri=config["tracking_uri"],
     script:
