@@ -12,6 +12,7 @@ below is marked, and the exit status is then 1.
 from __future__ import annotations
 
 import argparse
+import logging
 import sys
 from pathlib import Path
 
@@ -57,6 +58,7 @@ def main() -> int:
     parser.add_argument("--splits", type=int, default=200)
     parser.add_argument("--seed", type=int, default=0)
     options = parser.parse_args()
+    logging.disable(logging.INFO)  # MAPIE remarks on every corrected pair that crosses
     bad = 0
     print(f"{'dataset':<18}{'method':<12}{'level':>6}{'expected':>10}{'mean':>9}{'lowest':>9}{'in errors':>11}")
     for folder in sorted(path.parent for path in options.results.glob("*/table.parquet")):

@@ -30,7 +30,7 @@ def intervals(evidence: Evidence, confidence_levels: Sequence[float], *, symmetr
     result = np.empty((len(confidence_levels), *evidence.new.shape[1:]))
     result[..., 0], result[..., 1] = -np.inf, np.inf
     base = int(np.argmin(np.abs(np.asarray(confidence_levels) - BASE_LEVEL)))
-    pairs, new_pairs = (uncrossed(quantiles[base]) for quantiles in (evidence.calibration, evidence.new))
+    pairs, new_pairs = (_with_middle(uncrossed(quantiles[base])) for quantiles in (evidence.calibration, evidence.new))
     for place, level in enumerate(confidence_levels):
         side = level if symmetric else round(1 - (1 - level) / 2, 12)
         rank = conformal_rank(n, side)
@@ -39,7 +39,7 @@ def intervals(evidence: Evidence, confidence_levels: Sequence[float], *, symmetr
         exact = engine_level(n, rank)
         for coordinate, true in enumerate(columns(evidence.truth)):
             regressor = ConformalizedQuantileRegressor(
-                [Column(0), Column(1), Column(0)],
+                [Column(0), Column(1), Column(2)],
                 confidence_level=exact if symmetric else 2 * exact - 1,
                 prefit=True,
             )
@@ -48,6 +48,11 @@ def intervals(evidence: Evidence, confidence_levels: Sequence[float], *, symmetr
                 _, bounds = regressor.predict_interval(new_pairs[:, coordinate], symmetric_correction=symmetric)
             result[place, :, coordinate] = bounds[..., 0]
     return closed(result)
+
+
+def _with_middle(pairs: Array) -> Array:
+    """MAPIE wants a point prediction too: lower, upper, middle."""
+    return np.concatenate([pairs, pairs.mean(axis=-1, keepdims=True)], axis=-1)
 
 
 METHOD = IntervalMethod("cqr", "CQR", on="quantiles", guaranteed=True, intervals=intervals)
