@@ -4,10 +4,14 @@ CORES ?= 2
 BIN := .venv/bin
 export MLFLOW_DISABLE_TELEMETRY := true
 
-.PHONY: run test test-run lint ui store campaigns benchmark coverage environment clean
+.PHONY: run unlock test test-run lint ui store campaigns benchmark coverage environment clean
 
 run: .venv/installed
 	$(BIN)/snakemake --cores $(CORES)
+
+# After a kill -9 or a power cut, when no other run is going on: `make unlock run`.
+unlock: .venv/installed
+	$(BIN)/snakemake --unlock
 
 test: .venv/installed
 	$(BIN)/pytest -m "not slow"
