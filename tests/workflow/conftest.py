@@ -27,10 +27,9 @@ class House:
     ) -> subprocess.CompletedProcess[str]:
         """Run it; `more` is one more configuration file."""
         command = [sys.executable, "-m", "snakemake", "--cores", str(cores)]
-        command += ["--snakefile", str(self.root / "Snakefile"), "--directory", str(work or self.work)]
-        command += ["--configfile", str(self.root / "config" / "test.yaml"), str(self.mirror / "override.yaml")]
-        command += [str(more)] if more else []
-        command += options
+        command += ["--snakefile", str(self.root / "Snakefile"), "--directory", str(work or self.work), *options]
+        configuration = [self.root / "config" / "test.yaml", self.mirror / "override.yaml", *([more] if more else [])]
+        command += ["--configfile", *map(str, configuration)]
         environment = os.environ | {
             "PYTHONPATH": str(self.root / "src"),
             "SOFTKIN_DATA_MIRROR": str(self.mirror),
