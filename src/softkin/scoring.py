@@ -21,7 +21,7 @@ Runs = Mapping[tuple[str, str], Mapping[str, str]]
 def score(table: str | Path, *, dataset: str, runs: Runs, point: str | Path, markers: str | Path) -> None:
     """Write `point` (a row per subset, model, preset) and `markers` (a row per subset, model, preset, marker)."""
     truth = {subset: read_subset(table, subset).positions for subset in SUBSETS}
-    informative = informative_coordinates(read_subset(table, TRAIN).positions)
+    informative = informative_coordinates(truth[TRAIN])
     point_rows: list[dict[str, Any]] = []
     marker_rows: list[dict[str, Any]] = []
     for (model, preset), files in runs.items():

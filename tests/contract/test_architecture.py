@@ -104,6 +104,8 @@ def test_each_script_serves_the_rule_of_its_name() -> None:
             script = re.search(r'"\.\./scripts/(\w+)\.py"', block)
             assert script, name
             assert "log:" in block, f"rule {name} has no log"
+            # Fetching a file and making the store are done once: editing their code must not repeat them.
+            assert "package(" in block or name in ("retrieve", "create_store"), f"rule {name} lists no module"
             rules[name] = script[1]
     assert all(name == script for name, script in rules.items())
     assert {path.stem for path in (HOUSE / "workflow" / "scripts").glob("*.py")} == set(rules)

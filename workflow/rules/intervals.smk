@@ -6,6 +6,7 @@ rule intervals:
         sources=interval_sources,
         code=package(
             "calibrating.py",
+            "quantiles.py",
             "conformal.py",
             "datasets/table.py",
             "estimators/column.py",
@@ -41,7 +42,12 @@ rule score_intervals:
             "results/{{dataset}}/quantiles/{model}/paper/quantiles.parquet",
             model=config["quantile_models"],
         ),
-        code=package("scoring_intervals.py", "metrics/interval.py", "conformal.py"),
+        code=package(
+            "scoring_intervals.py",
+            "metrics/interval.py",
+            "conformal.py",
+            "quantiles.py",
+        ),
     output:
         "results/{dataset}/interval_metrics.csv",
     log:

@@ -8,6 +8,7 @@ rule predict:
             "results/{{dataset}}/{{model}}/{preset}/model.joblib",
             preset=config["presets"],
         ),
+        code=package("fitting.py", "datasets/table.py"),
     output:
         predictions=expand(
             "results/{{dataset}}/{{model}}/{preset}/predictions.parquet",
