@@ -16,7 +16,7 @@ from softkin.interface import SoftkinError
 
 def check_configuration(config: Mapping[str, Any], schema: str | Path, registries: Mapping[str, Iterable[str]]) -> None:
     """Check `config` against the YAML `schema`, and the names in it against the `registries`: of models,
-    formats, interval methods and learners of quantiles.
+    formats, interval methods, regions and learners of quantiles.
 
     Raises:
         SoftkinError: lists every problem: the key, what is wrong, and for an unknown key its likely spelling.
@@ -37,6 +37,7 @@ def _unknown_names(config: Mapping[str, Any], registries: Mapping[str, Iterable[
         ("interval_methods", "known method", name, registries["interval_methods"])
         for name in config["interval_methods"]
     ]
+    names += [("regions", "known region", name, registries["regions"]) for name in config["regions"]]
     names += [
         ("quantile_models", "known learner", name, registries["quantile_models"]) for name in config["quantile_models"]
     ]

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from fractions import Fraction
 
 import numpy as np
 
-from softkin.interface import Array
+from softkin.interface import Array, Evidence
+
+#: Smallest difficulty, mm: far below any robot's errors.
+TINY = 1e-12
 
 
 def conformal_rank(n_calibration: int, confidence_level: float) -> int | None:
@@ -20,6 +23,57 @@ def conformal_rank(n_calibration: int, confidence_level: float) -> int | None:
     """
     rank = math.ceil(Fraction(str(confidence_level)) * (n_calibration + 1))
     return rank if rank <= n_calibration else None
+
+
+def conformal_limit(scores: Array, confidence_level: float) -> float:
+    """The score (of n) that bounds a new one at the level; infinite when n is too small."""
+    rank = conformal_rank(len(scores), confidence_level)
+    return float("inf") if rank is None else float(np.sort(scores)[rank - 1])
+
+
+def error_scale(train_errors: Array) -> Array:
+    """Typical size (n_columns,) of the errors on `train`: their 90 % quantile, which a few failed rows cannot move.
+
+    A model that repeats `train` exactly has none; then all columns count alike.
+    """
+    typical = np.quantile(train_errors, 0.9, axis=0)
+    largest = float(typical.max())
+    return np.maximum(typical, 1e-6 * largest) if largest > 0 else np.ones(train_errors.shape[1])
+
+
+def two_sided_rank(n_calibration: int, confidence_level: float) -> int | None:
+    """The rank of an interval that leaves out alpha/2 on either side: of n + 1 places those between the two bounds.
+
+    None when either bound is infinite.
+    """
+    side = conformal_rank(n_calibration, round((1 + confidence_level) / 2, 12))
+    return None if side is None else 2 * side - (n_calibration + 1)
+
+
+def p_values(calibration_scores: Array, scores: Array, *, rng: np.random.Generator | None = None) -> Array:
+    """Conformal p-values of nonconformity `scores` (n_rows, ...) against those of the calibration set (n, ...).
+
+    The paper's Eq. 4: (number of calibration scores that are at least as large + 1) / (n + 1). With `rng` smoothed:
+    scores that are equal count with a uniform random share, so that p-values are exactly uniform (Vovk, Gammerman
+    and Shafer 2005, section 2.2).
+    """
+    ordered = np.sort(calibration_scores, axis=0)
+    n = len(ordered)
+    flat, flat_scores = ordered.reshape(n, -1), scores.reshape(len(scores), -1)
+    pairs = list(zip(flat.T, flat_scores.T, strict=True))
+    at_least = n - np.column_stack([np.searchsorted(mine, new, side="left") for mine, new in pairs])
+    if rng is None:
+        return np.asarray((at_least + 1) / (n + 1)).reshape(scores.shape)
+    above = n - np.column_stack([np.searchsorted(mine, new, side="right") for mine, new in pairs])
+    share = rng.uniform(size=above.shape)
+    return np.asarray((above + share * (at_least - above + 1)) / (n + 1)).reshape(scores.shape)
+
+
+def unbounded(n_levels: int, shape: tuple[int, ...]) -> Array:
+    """Intervals (n_levels, *shape, 2) from minus to plus infinity, to be filled where the calibration set suffices."""
+    result = np.empty((n_levels, *shape, 2))
+    result[..., 0], result[..., 1] = -np.inf, np.inf
+    return result
 
 
 def engine_level(n_calibration: int, rank: int) -> float:
@@ -51,6 +105,31 @@ def closed(intervals: Array) -> Array:
     result = intervals.copy()
     empty = intervals[..., 0] > intervals[..., 1]
     result[empty] = intervals[empty].mean(axis=-1, keepdims=True)
+    return result
+
+
+def normalised_intervals(
+    evidence: Evidence, confidence_levels: Sequence[float], calibration_difficulty: Array, new_difficulty: Array
+) -> Array:
+    """Split conformal intervals whose half-width is proportional to a difficulty (n_rows, n_coordinates) above 0.
+
+    One coordinate at a time by crepes.ConformalRegressor; infinite where the calibration set is too small.
+    """
+    from crepes import ConformalRegressor
+
+    n = len(evidence.truth)
+    result = unbounded(len(confidence_levels), evidence.new.shape)
+    for coordinate, residuals in enumerate(columns(evidence.truth - evidence.calibration)):
+        # A coordinate that never moves has no spread and no residuals: any difficulty will do.
+        known, new = (np.maximum(d[:, coordinate], TINY) for d in (calibration_difficulty, new_difficulty))
+        regressor = ConformalRegressor().fit(residuals, sigmas=known)
+        for place, level in enumerate(confidence_levels):
+            rank = conformal_rank(n, level)
+            if rank is not None:
+                bounds = regressor.predict_int(
+                    evidence.new[:, coordinate], sigmas=new, confidence=engine_level(n, rank)
+                )
+                result[place, :, coordinate] = bounds
     return result
 
 

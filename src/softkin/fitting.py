@@ -27,6 +27,9 @@ from softkin.job import stopwatch
 
 logger = logging.getLogger("softkin")
 
+#: What the columns of a model's spread start with.
+STANDARD_DEVIATION, SPREAD = "std_", "spread_"
+
 
 def kinematic_model(spec: ModelSpec, params: Params, *, skip_constant: bool, seed: int, threads: int) -> Any:
     """Unfitted regressor commands -> positions in mm; both are standardised inside, by what it is fitted on."""
@@ -73,6 +76,7 @@ def fit(
         record,
         {
             "params": params,
+            "skip_constant": skip_constant,
             "n_train": len(samples),
             "solvers_at_iteration_bound": stopped,
             "fit_seconds": watch.seconds,
@@ -82,9 +86,27 @@ def fit(
     logger.info("fitted on %d rows in %.1f s", len(samples), watch.seconds)
 
 
-def predict(table: str | Path, *, model: str | Path, threads: int, predictions: str | Path, record: str | Path) -> None:
+def spread_of(spec: ModelSpec, estimator: Any, train: Samples, commands: Array) -> Array:
+    """What a fitted kinematic model says itself of its uncertainty at `commands`: (n_rows, n_coordinates) in mm."""
+    assert spec.spread is not None
+    scaler, regressor = estimator.regressor_[0], estimator.regressor_[-1]
+    known = Samples(scaler.transform(train.commands), estimator.transformer_.transform(train.positions))
+    spread = spec.spread(regressor, known, scaler.transform(commands))
+    return np.asarray(estimator.transformer_.inverse_spread(spread))
+
+
+def predict(
+    table: str | Path,
+    *,
+    spec: ModelSpec,
+    model: str | Path,
+    threads: int,
+    predictions: str | Path,
+    record: str | Path,
+) -> None:
     """Write the `predictions` (Parquet: subset, m1_x.. in mm, rows as in `table`) of every subset, and how long
-    `test` takes a row (median of five).
+    `test` takes a row (median of five). A model with a spread gets columns for it too: std_m1_x.. (mm) where
+    it is a predictive standard deviation, else spread_m1_x...
     """
     estimator = joblib.load(model)
     frames = []
@@ -92,6 +114,10 @@ def predict(table: str | Path, *, model: str | Path, threads: int, predictions: 
         for subset in SUBSETS:
             commands = read_subset(table, subset).commands
             frames.append(_frame(subset, np.asarray(estimator.predict(commands))))
+            if spec.spread is not None:
+                spread = _frame(subset, spread_of(spec, estimator, read_subset(table, TRAIN), commands))
+                prefix = STANDARD_DEVIATION if spec.is_predictive else SPREAD
+                frames[-1] = pd.concat([frames[-1], spread.iloc[:, 1:].add_prefix(prefix)], axis=1)
             if subset == TEST:
                 microseconds = _microseconds_per_row(estimator, commands)
     with replacing(predictions) as temporary:

@@ -47,7 +47,10 @@ class ModelSpec:
 
     `build(params, seed, threads)` returns an unfitted multi-output scikit-learn regressor that works in
     standardised space. `paper_params` are the fixed settings of the paper's rows. `search_space(trial)` draws the
-    parameters of a tuned model; `first_trials` are drawn before it samples on its own.
+    parameters of a tuned model; `first_trials` are drawn before it samples on its own. `spread(regressor, train,
+    commands)`, if the model has one, is what it says itself of its uncertainty: (n_rows, n_coordinates), everything
+    standardised; `is_predictive` that this is the standard deviation of a whole predictive distribution.
+    `is_cheap` admits it to the methods that refit (CV+, jackknife+-after-bootstrap).
     """
 
     name: str
@@ -57,6 +60,9 @@ class ModelSpec:
     paper_params: Params
     search_space: Callable[[BaseTrial], Params]
     first_trials: tuple[Mapping[str, Any], ...]
+    spread: Callable[[Any, Samples, Array], Array] | None = None
+    is_predictive: bool = False
+    is_cheap: bool = False
 
 
 def command_columns(n_commands: int) -> list[str]:
@@ -77,13 +83,15 @@ def informative_coordinates(train_positions: Array) -> NDArray[np.bool_]:
 @dataclass(frozen=True, slots=True)
 class QuantileSpec:
     """One learner of quantiles. `build(params, quantiles, seed, threads)` returns an unfitted regressor of one
-    coordinate, in standardised space, that predicts (n_rows, n_quantiles).
+    coordinate, in standardised space, that predicts (n_rows, n_quantiles). The rest is as for a model.
     """
 
     name: str
     title: str
     build: Callable[[Params, Sequence[float], int, int], Any]
     paper_params: Params
+    search_space: Callable[[BaseTrial], Params]
+    first_trials: tuple[Mapping[str, Any], ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,25 +100,80 @@ class Evidence:
 
     `calibration` and `new` are predicted positions (n_rows, n_coordinates) for a method on predictions, or predicted
     quantiles (n_levels, n_rows, n_coordinates, 2) for a method on quantiles; `truth` is (n_calibration,
-    n_coordinates); all in mm.
+    n_coordinates); the spreads are shaped like the predictions; all in mm. Commands are (n_rows, n_commands).
     """
 
     calibration: Array
     truth: Array
     new: Array
+    train_spread: Array | None = None
+    calibration_spread: Array | None = None
+    new_spread: Array | None = None
+    train_commands: Array | None = None
+    calibration_commands: Array | None = None
+    new_commands: Array | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class RefitEvidence:
+    """What a method that refits sees: a model fitted again and again on parts of `train`.
+
+    `inside` holds the rows of `train` of each fit; `train` (n_fits, n_train, n_coordinates) and `new` (n_fits, n_new,
+    n_coordinates) what each predicts; `truth` (n_train, n_coordinates); in mm.
+    """
+
+    inside: Sequence[NDArray[np.intp]]
+    train: Array
+    truth: Array
+    new: Array
+
+
+#: What an interval promises of a new row exchangeable with those it was calibrated on, coordinate by coordinate.
+MARGINAL, WEAK, NO_GUARANTEE = GUARANTEES = ("marginal", "marginal at 1 - 2 alpha", "no guarantee")
 
 
 @dataclass(frozen=True, slots=True)
 class IntervalMethod:
     """One way to put an interval around a predicted position.
 
-    `intervals(evidence, confidence_levels)` returns (n_levels, n_rows, n_coordinates, 2), lower and upper in mm,
-    levels ascending. `on` says what it starts from: `predictions` or `quantiles`. `guaranteed` says whether its
-    coverage of a coordinate is at least the level for rows exchangeable with those of `validation`.
+    `on` says what it starts from: `predictions`, `spreads` (predictions of a model with a spread), `predictive`
+    (of one whose spread is a standard deviation), `quantiles`, `folds` or `resamples`. `intervals(evidence,
+    confidence_levels)` returns (n_levels, n_rows, n_coordinates, 2), lower and upper in mm, levels ascending.
+    `guarantee` is one of `GUARANTEES`. `rank(n_calibration, level)` is what the law of its coverage on exchangeable
+    rows follows from; None when the method calibrates nothing. `has_constant_width`: the same half-width to both
+    sides, on every row. `crps(evidence, true)` (n_rows, n_coordinates) in mm, for a method that gives a distribution.
     """
 
     name: str
     title: str
     on: str
-    guaranteed: bool
-    intervals: Callable[[Evidence, Sequence[float]], Array]
+    guarantee: str
+    intervals: Callable[[Any, Sequence[float]], Array]
+    rank: Callable[[int, float], int | None] | None = None
+    has_constant_width: bool = False
+    crps: Callable[[Any, Array], Array] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Region:
+    """A region around a predicted pose, the same at every command. `covers` takes residuals (n_rows, n_coordinates)
+    to (n_rows,); `size_mm` is the side of a cube of the same volume in all moving coordinates together.
+    """
+
+    covers: Callable[[Array], NDArray[np.bool_]]
+    size_mm: float
+
+
+@dataclass(frozen=True, slots=True)
+class RegionMethod:
+    """One shape of region that holds all moving coordinates at once.
+
+    `region(train_residuals, calibration_residuals, markers, confidence_level)`: residuals (n_rows, n_coordinates) in
+    mm of the moving coordinates, `markers` (n_coordinates,) says whose they are. `is_exact`: its joint coverage
+    follows the exact law of a conformal rank; else it is at least the level.
+    """
+
+    name: str
+    title: str
+    is_exact: bool
+    region: Callable[[Array, Array, NDArray[np.intp], float], Region]

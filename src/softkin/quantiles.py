@@ -13,10 +13,10 @@ from sklearn.pipeline import make_pipeline
 from sklearn.preprocessing import StandardScaler
 from threadpoolctl import threadpool_limits
 
+from softkin.bounds import bounds_frame
 from softkin.datasets.table import read_subset
 from softkin.files import replacing, write_json
 from softkin.interface import EXTRAPOLATION, TEST, TRAIN, VALIDATION, Array, Params, QuantileSpec, Samples
-from softkin.interface import coordinate_columns as coordinates_of
 from softkin.job import stopwatch
 
 logger = logging.getLogger("softkin")
@@ -85,23 +85,3 @@ def fit_quantiles(
         pd.concat(frames, ignore_index=True).to_parquet(temporary, index=False)
     write_json(record, {"params": params, "fit_seconds": watch.seconds, "fit_cpu_seconds": watch.cpu_seconds})
     logger.info("fitted %d quantiles in %.1f s", 2 * len(confidence_levels), watch.seconds)
-
-
-def bounds_frame(bounds: Array, subset: str, confidence_level: float) -> pd.DataFrame:
-    """(n_rows, n_coordinates, 2) as a table: subset, confidence_level, lower_m1_x.., upper_m1_x.. (mm)."""
-    names = coordinates_of(bounds.shape[1] // 3)
-    columns = [f"{bound}_{name}" for bound in ("lower", "upper") for name in names]
-    frame = pd.DataFrame(np.hstack([bounds[..., 0], bounds[..., 1]]), columns=columns)
-    frame.insert(0, "subset", subset)
-    frame.insert(1, "confidence_level", confidence_level)
-    return frame
-
-
-def read_bounds(frame: pd.DataFrame, subset: str, confidence_levels: Sequence[float]) -> Array:
-    """The inverse of `bounds_frame`: (n_levels, n_rows, n_coordinates, 2) in mm."""
-    levels = []
-    for level in confidence_levels:
-        rows = frame[(frame["subset"] == subset) & (frame["confidence_level"] == level)]
-        lower, upper = (rows.filter(regex=f"^{bound}_").to_numpy() for bound in ("lower", "upper"))
-        levels.append(np.stack([lower, upper], axis=-1))
-    return np.stack(levels)

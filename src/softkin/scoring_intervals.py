@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,16 +11,21 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from softkin.calibrating import INTERVAL_SUBSETS
-from softkin.conformal import conformal_rank
+from softkin.bounds import read_bounds
 from softkin.datasets.table import read_subset
+from softkin.evidence import INTERVAL_SUBSETS, Evidences, Run
 from softkin.files import replacing
 from softkin.interface import (
+    MARGINAL,
+    NO_GUARANTEE,
+    SUBSETS,
     TEST,
-    TRAIN,
-    VALIDATION,
     Array,
+    Evidence,
     IntervalMethod,
+    RefitEvidence,
+    RegionMethod,
+    SoftkinError,
     coordinate_columns,
     informative_coordinates,
 )
@@ -29,25 +34,24 @@ from softkin.metrics.interval import (
     coverage_band,
     coverage_p_value,
     covered,
+    geometric_size,
     holm,
     widths,
     winkler_scores,
 )
-from softkin.quantiles import read_bounds
-
-NO_GUARANTEE = "no guarantee"
-MARGINAL = "marginal"
+from softkin.scoring_regions import region_rows
 
 
 @dataclass(frozen=True, slots=True)
 class _Setting:
-    """What all rows of one interval have in common."""
+    """What all rows of one interval have in common; the guarantee is that of this subset."""
 
     true: Array
     informative: NDArray[np.bool_]
     n_calibration: int
     level: float
-    guaranteed: bool
+    method: IntervalMethod
+    guarantee: str
 
 
 def score_intervals(
@@ -55,73 +59,88 @@ def score_intervals(
     *,
     dataset: str,
     methods: Mapping[str, IntervalMethod],
-    intervals: Mapping[str, str],
-    quantiles: Mapping[tuple[str, str], str],
-    confidence_levels: Sequence[float],
+    intervals: Mapping[str, str | Path],
+    regions: Mapping[str, RegionMethod],
+    evidences: Evidences,
     output: str | Path,
 ) -> None:
     """Write a row per subset, model, preset, method, coordinate and level.
 
-    `intervals` is method -> its intervals; `quantiles` is (learner, preset) -> predicted quantiles, to count where
-    they crossed.
+    `intervals` is method -> its intervals; `evidences` what they were made from. A joint region has one row, `joint`.
+
+    Raises:
+        SoftkinError: a symmetric interval of constant width has a Winkler score below twice its mean absolute error,
+            which cannot be: files of different runs were mixed.
     """
-    truth = {subset: read_subset(table, subset).positions for subset in INTERVAL_SUBSETS}
-    n_calibration = len(read_subset(table, VALIDATION))
-    informative = informative_coordinates(read_subset(table, TRAIN).positions)
-    crossed = {key: pd.read_parquet(path) for key, path in quantiles.items()}
+    everything = {subset: read_subset(table, subset).positions for subset in SUBSETS}
+    truth = {subset: everything[subset] for subset in INTERVAL_SUBSETS}
+    informative = informative_coordinates(evidences.train.positions)
     rows: list[dict[str, Any]] = []
-    for name, path in intervals.items():
-        stored = pd.read_parquet(path)
-        for (model, preset), mine in stored.groupby(["model", "preset"], sort=False):
+    for name, method in methods.items():
+        stored = dict(list(pd.read_parquet(intervals[name]).groupby(["model", "preset"], sort=False)))
+        for run, evidence in evidences.of(method.on):
+            scores = _crps(method, evidences, evidence, truth)
             for subset, true in truth.items():
-                bounds = read_bounds(mine, subset, confidence_levels)
-                raw = None
-                if methods[name].on == "quantiles":
-                    raw = read_bounds(crossed[str(model), str(preset)], subset, confidence_levels)
-                for place, level in enumerate(confidence_levels):
-                    guaranteed = methods[name].guaranteed and subset == TEST
-                    setting = _Setting(true, informative, n_calibration, level, guaranteed)
-                    crossings = np.zeros(true.shape, bool) if raw is None else raw[place, ..., 0] > raw[place, ..., 1]
-                    key = {"dataset": dataset, "subset": subset, "model": model, "preset": preset}
+                bounds = read_bounds(stored[run], subset, evidences.levels)
+                crossings = _crossings(method, evidences, run, subset, bounds)
+                guarantee = method.guarantee if subset == TEST else NO_GUARANTEE
+                n_calibration = 0 if method.guarantee == NO_GUARANTEE else len(evidence.truth)
+                for place, level in enumerate(evidences.levels):
+                    setting = _Setting(true, informative, n_calibration, level, method, guarantee)
+                    key = {"dataset": dataset, "subset": subset, "model": run[0], "preset": run[1]}
                     key |= {"interval_method": name}
-                    rows += [key | row for row in _rows(setting, bounds[place], crossings)]
+                    rows += [key | row for row in _rows(setting, bounds[place], crossings[place], scores[subset])]
+    rows += [{"dataset": dataset, **row} for row in region_rows(evidences, everything, regions)]
     with replacing(output) as temporary:
         pd.DataFrame(rows).to_csv(temporary, index=False)
 
 
-def _rows(setting: _Setting, bounds: Array, crossings: NDArray[np.bool_]) -> Iterator[dict[str, Any]]:
+def _crps(
+    method: IntervalMethod, evidences: Evidences, evidence: Evidence | RefitEvidence, truth: Mapping[str, Array]
+) -> Mapping[str, Array]:
+    """(n_rows, n_coordinates) per subset; not a number for a method that gives no distribution."""
+    if method.crps is None:
+        return {subset: np.full(true.shape, np.nan) for subset, true in truth.items()}
+    return evidences.by_subset(method.crps(evidence, np.concatenate(list(truth.values()))))
+
+
+def _crossings(method: IntervalMethod, evidences: Evidences, run: Run, subset: str, bounds: Array) -> NDArray[np.bool_]:
+    """Where predicted quantiles crossed before they were put in order, (n_levels, n_rows, n_coordinates)."""
+    if method.on != "quantiles":
+        return np.zeros(bounds.shape[:-1], dtype=bool)
+    raw = read_bounds(evidences.quantiles[run], subset, evidences.levels)
+    return np.asarray(raw[..., 0] > raw[..., 1])
+
+
+def _rows(setting: _Setting, bounds: Array, crossings: NDArray[np.bool_], scores: Array) -> Iterator[dict[str, Any]]:
     inside = covered(setting.true, bounds)
     width = widths(bounds)
     winkler = winkler_scores(setting.true, bounds, setting.level)
     infinite = np.isinf(width)
+    if setting.method.has_constant_width and not infinite.any():
+        _check_winkler(setting, bounds, winkler)
     n_rows, n_coordinates = setting.true.shape
     bands = [_band(setting, int(count)) for count in inside.sum(axis=0)]
-    adjusted = holm(np.array([band["coverage_p_value"] for band in bands])) if setting.guaranteed else None
+    exact = setting.guarantee == MARGINAL
+    adjusted = holm(np.array([band["coverage_p_value"] for band in bands])) if exact else None
     common = {"confidence_level": setting.level, "n_calibration": setting.n_calibration, "n_rows": n_rows}
-    for i, name in enumerate(coordinate_columns(n_coordinates // 3)):
-        yield {
-            **common,
-            "coordinate": name,
-            "coverage": inside[:, i].mean(),
-            **bands[i],
-            "coverage_p_value_holm": np.nan if adjusted is None else adjusted[i],
-            "mean_width_mm": width[:, i].mean(),
-            "winkler_mm": winkler[:, i].mean(),
-            "infinite_share": infinite[:, i].mean(),
-            "crossing_share": crossings[:, i].mean(),
-            "guarantee": MARGINAL if setting.guaranteed else NO_GUARANTEE,
-        }
-    for name, mask in (("mean", np.ones(n_coordinates, bool)), ("mean_informative", setting.informative)):
-        yield {
-            **common,
-            "coordinate": name,
+
+    def averages(mask: Any) -> dict[str, Any]:
+        return {
             "coverage": inside[:, mask].mean(),
             "mean_width_mm": width[:, mask].mean(),
             "winkler_mm": winkler[:, mask].mean(),
+            "crps_mm": scores[:, mask].mean(),
             "infinite_share": infinite[:, mask].mean(),
             "crossing_share": crossings[:, mask].mean(),
-            "guarantee": MARGINAL if setting.guaranteed else NO_GUARANTEE,
+            "guarantee": setting.guarantee,
         }
+
+    for i, name in enumerate(coordinate_columns(n_coordinates // 3)):
+        holm_adjusted = {"coverage_p_value_holm": np.nan if adjusted is None else adjusted[i]}
+        yield {**common, "coordinate": name, **averages(i), **bands[i], **holm_adjusted}
+    for name, mask in (("mean", np.ones(n_coordinates, bool)), ("mean_informative", setting.informative)):
+        yield {**common, "coordinate": name, **averages(mask)}
     together = inside[:, setting.informative].all(axis=1)
     low, high = clopper_pearson(int(together.sum()), n_rows)
     yield {
@@ -130,19 +149,29 @@ def _rows(setting: _Setting, bounds: Array, crossings: NDArray[np.bool_]) -> Ite
         "coverage": together.mean(),
         "coverage_low": low,
         "coverage_high": high,
+        "size_mm": geometric_size(width[:, setting.informative]).mean(),
         "infinite_share": infinite[:, setting.informative].any(axis=1).mean(),
         "crossing_share": crossings[:, setting.informative].any(axis=1).mean(),
         "guarantee": NO_GUARANTEE,
     }
 
 
+def _check_winkler(setting: _Setting, bounds: Array, winkler: Array) -> None:
+    least = 2 * np.abs(setting.true - bounds.mean(axis=-1)).mean(axis=0)
+    if (winkler.mean(axis=0) < least * (1 - 1e-6)).any():
+        raise SoftkinError(
+            f"intervals by '{setting.method.name}': a mean Winkler score lies below twice the mean absolute error, "
+            "which no symmetric interval of constant width can have; mend: delete results/{dataset}/intervals and rerun"
+        )
+
+
 def _band(setting: _Setting, n_covered: int) -> dict[str, float]:
     """With a guarantee, the band in which its coverage must lie and the p-value; else the coverage's own interval."""
     n_rows = len(setting.true)
-    rank = conformal_rank(setting.n_calibration, setting.level)
-    if not setting.guaranteed:
+    if setting.guarantee != MARGINAL or setting.method.rank is None:
         low, high = clopper_pearson(n_covered, n_rows)
         return {"coverage_low": low, "coverage_high": high, "coverage_p_value": np.nan}
+    rank = setting.method.rank(setting.n_calibration, setting.level)
     if rank is None:  # infinite intervals cover everything
         return {"coverage_low": 1.0, "coverage_high": 1.0, "coverage_p_value": 1.0}
     low, high = coverage_band(n_rows, setting.n_calibration, rank)

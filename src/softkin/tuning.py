@@ -6,7 +6,7 @@ import hashlib
 import json
 import logging
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from importlib.metadata import version
 from pathlib import Path
@@ -16,21 +16,19 @@ import numpy as np
 import optuna
 import pandas as pd
 from filelock import FileLock
-from numpy.typing import NDArray
 from optuna.trial import FrozenTrial, Trial, TrialState
-from sklearn.model_selection import GroupKFold
 
 from softkin.datasets.table import content_hash, read_subset
 from softkin.files import replacing, sha256_of, write_json
 from softkin.fitting import fit_quietly, kinematic_model
-from softkin.interface import TRAIN, Array, ModelSpec, Params, Samples, SoftkinError, informative_coordinates
+from softkin.folds import Folds, grouped_folds
+from softkin.interface import TRAIN, ModelSpec, Params, Samples, SoftkinError, informative_coordinates
 
 logger = logging.getLogger("softkin")
 
 #: Whatever can change a trial's outcome besides our own code.
 DECIDING_PACKAGES = ("numpy", "scipy", "scikit-learn", "xgboost", "optuna")
 ENDED = (TrialState.COMPLETE, TrialState.PRUNED)
-Folds = list[tuple[NDArray[np.intp], NDArray[np.intp]]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,22 +60,6 @@ def bounded_rows(samples: Samples, max_rows: int, seed: int) -> Samples:
     return Samples(samples.commands[rows], samples.positions[np.ix_(rows, moving)])
 
 
-def grouped_folds(commands: Array, n_folds: int, seed: int) -> Folds:
-    """Shuffled folds in which a distinct command stands on one side only.
-
-    Raises:
-        SoftkinError: fewer distinct commands than folds.
-    """
-    _, groups = np.unique(commands, axis=0, return_inverse=True)
-    n_groups = int(groups.max()) + 1
-    if n_groups < n_folds:
-        raise SoftkinError(
-            f"`train` has {n_groups} distinct commands, too few for {n_folds} folds; mend: lower tuning.n_folds"
-        )
-    splitter = GroupKFold(n_folds, shuffle=True, random_state=seed)
-    return list(splitter.split(commands, groups=groups.ravel()))
-
-
 def fold_errors(
     spec: ModelSpec, params: Params, samples: Samples, folds: Folds, seed: int, threads: int
 ) -> Iterator[float]:
@@ -89,12 +71,12 @@ def fold_errors(
         yield float(np.abs(predicted - samples.positions[outside]).mean())
 
 
-def fingerprint(spec: ModelSpec, samples: Samples, settings: TuningSettings, code: Sequence[str | Path]) -> str:
+def fingerprint(name: str, samples: Samples, settings: TuningSettings, code: Sequence[str | Path]) -> str:
     """SHA-256 (hex) of all that decides a trial: the rows of `train`, the settings but for the number of trials,
     our source files `code`, the library versions.
     """
     decides = {
-        "model": spec.name,
+        "model": name,
         "data": content_hash(samples),
         "settings": {key: value for key, value in asdict(settings).items() if key != "n_trials"},
         "code": sha256_of(sorted(map(str, code))),
@@ -106,13 +88,17 @@ def fingerprint(spec: ModelSpec, samples: Samples, settings: TuningSettings, cod
 def tune(
     samples: Samples,
     *,
-    spec: ModelSpec,
+    name: str,
+    search_space: Callable[[Trial], Params],
+    first_trials: Sequence[Mapping[str, Any]],
+    errors_of: Callable[[Params, Samples, Folds], Iterator[float]],
     settings: TuningSettings,
     study_file: str | Path,
     code: Sequence[str | Path],
-    threads: int,
 ) -> TuningResult:
     """Bring the study in `study_file` (SQLite) to `settings.n_trials` ended trials and return what it found.
+
+    `errors_of(params, samples, folds)` gives the error (mm) of each fold; the study looks for the lowest mean.
 
     Resumable to the bit: a killed run leaves ended trials in the file; the next run marks the trial it was in as
     failed and draws it again from a sampler seeded by the trial's place, so that it ends with the same trials as an
@@ -121,17 +107,17 @@ def tune(
     optuna.logging.set_verbosity(optuna.logging.WARNING)
     study_file = Path(study_file).resolve()
     study_file.parent.mkdir(parents=True, exist_ok=True)
-    mark = fingerprint(spec, samples, settings, code)
+    mark = fingerprint(name, samples, settings, code)
     rows = bounded_rows(samples, settings.max_rows, settings.seed)
     folds = grouped_folds(rows.commands, settings.n_folds, settings.seed)
 
     def objective(trial: Trial) -> float:
         start, cpu = time.perf_counter(), time.process_time()
-        params = spec.search_space(trial)
+        params = search_space(trial)
         trial.set_user_attr("params", params)
         errors: list[float] = []
         try:
-            for step, error in enumerate(fold_errors(spec, params, rows, folds, settings.seed, threads)):
+            for step, error in enumerate(errors_of(params, rows, folds)):
                 errors.append(error)
                 if not np.isfinite(error):
                     raise optuna.TrialPruned
@@ -153,15 +139,15 @@ def tune(
         if ended:
             logger.info("resuming after %d of %d trials", ended, settings.n_trials)
         while ended < settings.n_trials:
-            if ended < len(spec.first_trials) and not study.get_trials(deepcopy=False, states=(TrialState.WAITING,)):
-                study.enqueue_trial(dict(spec.first_trials[ended]))
+            if ended < len(first_trials) and not study.get_trials(deepcopy=False, states=(TrialState.WAITING,)):
+                study.enqueue_trial(dict(first_trials[ended]))
             study.sampler = optuna.samplers.TPESampler(
                 seed=settings.seed + ended, multivariate=True, constant_liar=False
             )
             study.optimize(objective, n_trials=1)
             ended += 1
             _report_progress(study, ended, settings.n_trials)
-        return _result(study.get_trials(states=ENDED)[: settings.n_trials], mark, spec.name)
+        return _result(study.get_trials(states=ENDED)[: settings.n_trials], mark, name)
 
 
 def _open_study(path: Path, mark: str) -> optuna.Study:
@@ -202,6 +188,32 @@ def _row(place: int, trial: FrozenTrial) -> dict[str, Any]:
     return {"trial": place, "state": trial.state.name, "cv_mae_mm": trial.value if whole else None} | attributes | shown
 
 
+def tune_model(
+    samples: Samples,
+    *,
+    spec: ModelSpec,
+    settings: TuningSettings,
+    study_file: str | Path,
+    code: Sequence[str | Path],
+    threads: int,
+) -> TuningResult:
+    """The study of one model of the pool."""
+
+    def errors_of(params: Params, rows: Samples, folds: Folds) -> Iterator[float]:
+        return fold_errors(spec, params, rows, folds, settings.seed, threads)
+
+    return tune(
+        samples,
+        name=spec.name,
+        search_space=spec.search_space,
+        first_trials=spec.first_trials,
+        errors_of=errors_of,
+        settings=settings,
+        study_file=study_file,
+        code=code,
+    )
+
+
 def tune_table(
     table: str | Path,
     *,
@@ -215,7 +227,7 @@ def tune_table(
 ) -> None:
     """Tune on the rows of `train` in `table`; write the best `parameters` (JSON) and all `trials` (CSV)."""
     samples = read_subset(table, TRAIN)
-    result = tune(samples, spec=spec, settings=settings, study_file=study_file, code=code, threads=threads)
+    result = tune_model(samples, spec=spec, settings=settings, study_file=study_file, code=code, threads=threads)
     with replacing(trials) as temporary:
         result.trials.to_csv(temporary, index=False)
     write_json(

@@ -10,7 +10,7 @@ import numpy as np
 import optuna
 import pytest
 
-from softkin.fitting import fit_quietly, kinematic_model
+from softkin.fitting import fit_quietly, kinematic_model, spread_of
 from softkin.interface import Params, Samples
 from softkin.models import MODELS, source_files
 from tests.conftest import bending_arm
@@ -90,3 +90,19 @@ def test_the_first_trials_lie_inside_the_search_space(model: str) -> None:
         assert trial.params == start
         for name, distribution in trial.distributions.items():
             assert distribution._contains(distribution.to_internal_repr(start[name])), name
+
+
+@pytest.mark.parametrize("model", [name for name, spec in MODELS.items() if spec.spread is not None])
+def test_a_spread_is_in_mm_positive_and_grows_with_the_robot(model: str) -> None:
+    samples, probe = bending_arm(80, n_commands=3, n_markers=3), bending_arm(30, n_commands=3, n_markers=3, seed=1)
+    means = []
+    for factor in (1.0, 10.0):
+        rows = Samples(samples.commands, factor * samples.positions)
+        estimator = kinematic_model(MODELS[model], first_params(model)[0], skip_constant=True, seed=0, threads=1)
+        fit_quietly(estimator, rows, 1)
+        spread = spread_of(MODELS[model], estimator, rows, probe.commands)
+        assert spread.shape == (30, 9)
+        assert (spread[:, :3] == 0).all()  # the base never moves
+        assert (spread[:, 3:] > 0).all()
+        means.append(spread[:, 3:].mean())
+    assert means[1] == pytest.approx(10 * means[0], rel=0.05)

@@ -13,6 +13,7 @@ from softkin.interface import SoftkinError
 from softkin.intervals import INTERVAL_METHODS
 from softkin.models import MODELS
 from softkin.quantile_models import QUANTILE_MODELS
+from softkin.regions import REGION_METHODS
 from tests.conftest import HOUSE
 
 SCHEMA = HOUSE / "workflow" / "schemas" / "config.schema.yaml"
@@ -24,13 +25,14 @@ for name in ("config", "datasets"):
 def check(config: dict[str, Any]) -> None:
     registries: dict[str, Any] = {"models": MODELS, "formats": READERS}
     registries |= {"interval_methods": INTERVAL_METHODS, "quantile_models": QUANTILE_MODELS}
+    registries |= {"regions": REGION_METHODS}
     check_configuration(config, SCHEMA, registries)
 
 
 def test_the_shipped_configuration_is_good() -> None:
     check(GOOD)
     test = yaml.safe_load((HOUSE / "config" / "test.yaml").read_text())
-    check(GOOD | test)
+    check(GOOD | {**test, **{key: GOOD[key] | test[key] for key in ("tuning", "refitting")}})
 
 
 @pytest.mark.parametrize(
@@ -45,6 +47,8 @@ def test_the_shipped_configuration_is_good() -> None:
         (lambda c: c.update(presets=["tunde"]), ["presets.0", "did you mean 'tuned'?"]),
         (lambda c: c.update(datasets=["fingers"]), ["datasets: 'fingers'", "did you mean 'finger'?"]),
         (lambda c: c.update(interval_methods=["scp_mapy"]), ["did you mean 'scp_mapie'?"]),
+        (lambda c: c.update(regions=["joint_boxes"]), ["did you mean 'joint_box'?"]),
+        (lambda c: c["refitting"].update(n_resamples=3), ["refitting.n_resamples", "at least 10"]),
         (lambda c: c.update(quantile_models=["xbg"]), ["did you mean 'xgb'?"]),
         (lambda c: c.update(confidence_levels=[0.9, 0.8]), ["not ascending", "[0.8, 0.9]"]),
         (lambda c: c.update(confidence_levels=[90]), ["confidence_levels.0", "90"]),

@@ -20,7 +20,14 @@ def run(table: Path, folder: Path, model: str = "lr") -> tuple[pd.DataFrame, dic
     params = {**spec.paper_params}
     fit(table, spec=spec, params=params, skip_constant=False, seed=0, threads=1, **files)
     predictions = folder / "predictions.parquet"
-    predict(table, model=files["model"], threads=1, predictions=predictions, record=folder / "predict.json")
+    predict(
+        table,
+        spec=spec,
+        model=files["model"],
+        threads=1,
+        predictions=predictions,
+        record=folder / "predict.json",
+    )
     return pd.read_parquet(predictions), read_json(folder / "fit.json") | read_json(folder / "predict.json")
 
 

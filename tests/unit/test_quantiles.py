@@ -7,11 +7,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from softkin.bounds import read_bounds
 from softkin.datasets.table import read_subset, to_table, write_table
 from softkin.files import read_json
 from softkin.interface import SUBSETS, TRAIN, Samples
 from softkin.quantile_models import QUANTILE_MODELS
-from softkin.quantiles import QuantileModel, fit_quantiles, quantiles_of, read_bounds
+from softkin.quantiles import QuantileModel, fit_quantiles, quantiles_of
 from tests.conftest import bending_arm
 
 LEVELS = [0.8, 0.9]

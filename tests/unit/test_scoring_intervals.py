@@ -6,12 +6,16 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from softkin.bounds import bounds_frame
 from softkin.datasets.table import read_subset
+from softkin.evidence import Evidences
+from softkin.interface import MARGINAL, NO_GUARANTEE, SoftkinError
 from softkin.intervals import INTERVAL_METHODS
-from softkin.quantiles import bounds_frame
-from softkin.scoring_intervals import MARGINAL, NO_GUARANTEE, score_intervals
+from softkin.regions import REGION_METHODS
+from softkin.scoring_intervals import score_intervals
 
 LEVELS = [0.8, 0.9]
+RUN = ("gb", "paper")
 COLUMNS = {
     *("dataset", "subset", "model", "preset", "interval_method", "coordinate", "confidence_level", "coverage"),
     *("coverage_low", "coverage_high", "coverage_p_value", "mean_width_mm", "winkler_mm", "n_calibration", "n_rows"),
@@ -40,14 +44,24 @@ def metrics(table: Path, tmp_path: Path) -> pd.DataFrame:
     infinite.loc[:, infinite.columns.str.startswith("lower")] = -np.inf
     infinite.loc[:, infinite.columns.str.startswith("upper")] = np.inf
     infinite.to_parquet(files["qr"])
+    predictions = pd.read_parquet(table).drop(columns=["u1", "u2"])
+    predictions.to_parquet(tmp_path / "predictions.parquet")
+    quantiles += [quantiles[0].assign(subset="validation", confidence_level=level) for level in LEVELS]
     pd.concat(quantiles).to_parquet(files["quantiles"])
+    evidences = Evidences(
+        table,
+        predictions={RUN: tmp_path / "predictions.parquet"},
+        quantiles={RUN: files["quantiles"]},
+        refits=None,
+        confidence_levels=LEVELS,
+    )
     score_intervals(
         table,
         dataset="arm",
         methods={name: INTERVAL_METHODS[name] for name in ("scp_mapie", "qr")},
-        intervals={name: str(files[name]) for name in ("scp_mapie", "qr")},
-        quantiles={("gb", "paper"): str(files["quantiles"])},
-        confidence_levels=LEVELS,
+        intervals={name: files[name] for name in ("scp_mapie", "qr")},
+        regions={"joint_box": REGION_METHODS["joint_box"]},
+        evidences=evidences,
         output=tmp_path / "metrics.csv",
     )
     return pd.read_csv(tmp_path / "metrics.csv")
@@ -61,9 +75,13 @@ def rows(metrics: pd.DataFrame, **wanted: object) -> pd.DataFrame:
 
 def test_a_row_for_each_coordinate_and_average(metrics: pd.DataFrame) -> None:
     assert set(metrics.columns) >= COLUMNS
-    assert len(metrics) == 2 * 2 * 2 * 6
+    assert len(metrics) == 2 * 2 * (2 * 6 + 1)  # subsets, levels; two methods, one region
     assert set(metrics["coordinate"]) == {"m1_x", "m1_y", "m1_z", "mean", "mean_informative", "joint"}
-    assert set(metrics["n_calibration"]) == set(metrics["n_rows"]) == {40}
+    assert set(metrics["n_rows"]) == {40}
+    assert set(rows(metrics, interval_method="scp_mapie")["n_calibration"]) == {40}
+    assert set(rows(metrics, interval_method="qr")["n_calibration"]) == {0}
+    box = metrics[metrics["interval_method"] == "joint_box"]
+    assert set(box["coordinate"]) == {"joint"}
 
 
 def test_known_misses_are_scored(metrics: pd.DataFrame) -> None:
@@ -96,3 +114,28 @@ def test_infinite_intervals_and_crossings_are_counted(metrics: pd.DataFrame) -> 
     assert mine.loc[["m1_x", "m1_y", "m1_z"], "crossing_share"].tolist() == [0.0, 0.0, 1.0]
     assert mine.loc["joint", "crossing_share"] == 1.0
     assert set(rows(metrics, interval_method="scp_mapie")["crossing_share"]) == {0.0}
+
+
+def test_a_winkler_score_below_twice_the_mean_absolute_error_stops_the_run(
+    table: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, metrics: pd.DataFrame
+) -> None:
+    assert len(metrics)
+    monkeypatch.setattr("softkin.scoring_intervals.winkler_scores", lambda true, *_: np.zeros_like(true))
+    evidences = Evidences(
+        table,
+        predictions={RUN: tmp_path / "predictions.parquet"},
+        quantiles={},
+        refits=None,
+        confidence_levels=LEVELS,
+    )
+    with pytest.raises(SoftkinError, match="below twice the mean absolute error"):
+        score_intervals(
+            table,
+            dataset="arm",
+            methods={"scp_mapie": INTERVAL_METHODS["scp_mapie"]},
+            intervals={"scp_mapie": tmp_path / "scp_mapie.parquet"},
+            regions={},
+            evidences=evidences,
+            output=tmp_path / "never.csv",
+        )
+    assert not (tmp_path / "never.csv").exists()

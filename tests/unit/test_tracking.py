@@ -159,6 +159,7 @@ def interval_metrics(tmp_path: Path) -> Path:
             for coordinate in ("m1_x", "mean_informative", "joint"):
                 key = {"dataset": "finger", "subset": subset, "model": "svr", "preset": "tuned"}
                 values = {"coverage": 0.91, "mean_width_mm": 2.0, "infinite_share": 0.0, "crossing_share": 0.0}
+                values |= {"crps_mm": float("nan"), "size_mm": 2.5 if coordinate == "joint" else float("nan")}
                 values["winkler_mm"] = float("inf") if coordinate == "joint" else 3.0
                 rows.append(
                     key | {"interval_method": method, "coordinate": coordinate, "confidence_level": 0.9} | values
@@ -180,6 +181,21 @@ def test_interval_runs_hang_on_their_model_and_are_logged_once(
     assert "test/joint_winkler_mm_90" not in nested[0]["data"]["metrics"]
     log_intervals(campaign, dataset="finger", metrics=interval_metrics, parents=log_dataset(campaign, **results))
     assert snapshot(campaign) == before
+
+
+def test_all_shapes_of_region_share_a_run(campaign: Campaign, results: dict[str, Any], interval_metrics: Path) -> None:
+    table = pd.read_csv(interval_metrics)
+    joint = table[(table["interval_method"] == "qr") & (table["coordinate"] == "joint")]
+    shapes = [joint.assign(interval_method=name) for name in ("joint_box", "joint_balls")]
+    pd.concat([table, *shapes]).to_csv(interval_metrics, index=False)
+    logged = log_dataset(campaign, **results)
+    assert log_intervals(campaign, dataset="finger", metrics=interval_metrics, parents=logged) == 3
+    runs = [run["data"] for run in snapshot(campaign).values()]
+    (regions,) = [run for run in runs if run["tags"].get("interval_method") == "joint_regions"]
+    assert regions["tags"][PARENT] == logged["svr/tuned"]
+    assert regions["metrics"]["test/joint_box_size_mm_90"] == 2.5
+    assert regions["metrics"]["extrapolation/joint_balls_coverage_90"] == 0.91
+    assert "joint_box covers 91.0%" in regions["tags"]["mlflow.note.content"]
 
 
 def test_interval_runs_follow_a_replaced_model_and_leave_with_their_method(

@@ -16,9 +16,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from softkin.files import read_json
-from softkin.interface import SoftkinError
+from softkin.folds import grouped_folds
 from softkin.models import MODELS, source_files
-from softkin.tuning import TuningResult, TuningSettings, bounded_rows, fingerprint, fold_errors, grouped_folds, tune
+from softkin.tuning import TuningResult, TuningSettings, bounded_rows, fingerprint, fold_errors, tune_model
 from tests.conftest import bending_arm
 
 SETTINGS = TuningSettings(n_trials=8, n_folds=3, max_rows=60, seed=3)
@@ -27,29 +27,11 @@ TIMES = ["seconds", "cpu_seconds"]
 
 def study(path: Path, model: str = "lasso", given: TuningSettings = SETTINGS) -> TuningResult:
     rows = bending_arm(90)
-    return tune(rows, spec=MODELS[model], settings=given, study_file=path, code=source_files(model), threads=1)
+    return tune_model(rows, spec=MODELS[model], settings=given, study_file=path, code=source_files(model), threads=1)
 
 
 def untimed(trials: pd.DataFrame) -> pd.DataFrame:
     return trials.drop(columns=TIMES)
-
-
-@given(
-    st.lists(st.integers(0, 9), min_size=30, max_size=60).filter(lambda groups: len(set(groups)) >= 4),
-    st.integers(2, 4),
-    st.integers(0, 99),
-)
-def test_a_distinct_command_stands_on_one_side_of_a_fold(groups: list[int], n_folds: int, seed: int) -> None:
-    commands = np.array(groups, dtype=float)[:, None] * [1.0, -2.0]
-    folds = grouped_folds(commands, n_folds, seed)
-    assert sorted(np.concatenate([outside for _, outside in folds])) == list(range(len(commands)))
-    for inside, outside in folds:
-        assert not set(map(tuple, commands[inside])) & set(map(tuple, commands[outside]))
-
-
-def test_too_few_distinct_commands_is_an_error() -> None:
-    with pytest.raises(SoftkinError, match=r"2 distinct commands, too few for 5 folds.*tuning.n_folds"):
-        grouped_folds(np.array([[0.0], [1.0]] * 20), 5, 0)
 
 
 def test_repeated_commands_do_not_flatter_a_memorising_model() -> None:
@@ -88,17 +70,17 @@ def test_a_study_belongs_to_its_fingerprint(tmp_path: Path) -> None:
     code.write_text("a = 1")
     rows, spec = bending_arm(60), MODELS["lr"]
     marks = [
-        fingerprint(spec, rows, SETTINGS, [code]),
-        fingerprint(spec, bending_arm(61), SETTINGS, [code]),
-        fingerprint(MODELS["lasso"], rows, SETTINGS, [code]),
+        fingerprint(spec.name, rows, SETTINGS, [code]),
+        fingerprint(spec.name, bending_arm(61), SETTINGS, [code]),
+        fingerprint("lasso", rows, SETTINGS, [code]),
         *(
-            fingerprint(spec, rows, replace(SETTINGS, **{key: 7}), [code])  # type: ignore[arg-type]
+            fingerprint(spec.name, rows, replace(SETTINGS, **{key: 7}), [code])  # type: ignore[arg-type]
             for key in ("n_folds", "max_rows", "seed")
         ),
     ]
-    assert fingerprint(spec, rows, replace(SETTINGS, n_trials=99), [code]) == marks[0]
+    assert fingerprint(spec.name, rows, replace(SETTINGS, n_trials=99), [code]) == marks[0]
     code.write_text("a = 2")
-    marks.append(fingerprint(spec, rows, SETTINGS, [code]))
+    marks.append(fingerprint(spec.name, rows, SETTINGS, [code]))
     assert len(set(marks)) == len(marks)
 
 

@@ -9,15 +9,19 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+import yaml
 from mlflow import MlflowClient
 
 from softkin.files import read_json
 from softkin.interface import PRESETS, SUBSETS
+from softkin.intervals import INTERVAL_METHODS
 from softkin.models import MODELS
+from tests.conftest import HOUSE
 from tests.workflow.conftest import House
 
 pytestmark = pytest.mark.timeout(300)
 DATASETS = ("elastica_2023_09", "finger")
+CONFIGURED = yaml.safe_load((HOUSE / "config" / "config.yaml").read_text())
 TIMINGS = ["fit_seconds", "predict_us_per_row"]
 
 
@@ -62,8 +66,10 @@ def test_interval_metrics_have_a_row_for_everything(house: House) -> None:
     table = pd.read_csv(house.work / "results" / "tables" / "interval_metrics.csv")
     keys = ["dataset", "subset", "model", "preset", "interval_method", "coordinate", "confidence_level"]
     assert not table.duplicated(keys).any()
-    assert len(table) == 2 * 2 * (2 * 16 + 2 * 2) * 6 * 3
-    assert set(table["interval_method"]) == {"qr", "cqr", "scp_mapie", "scp_crepes"}
+    rows = table["interval_method"].value_counts().to_dict()
+    around = {"predictions": 16, "spreads": 6, "predictive": 4, "quantiles": 4, "folds": 12, "resamples": 12}
+    expected = {name: 2 * 2 * around[INTERVAL_METHODS[name].on] * 6 * 3 for name in CONFIGURED["interval_methods"]}
+    assert rows == expected | dict.fromkeys(CONFIGURED["regions"], 2 * 2 * 16 * 3)
     engines = table[table["interval_method"].str.startswith("scp")].pivot(
         index=[key for key in keys if key != "interval_method"], columns="interval_method", values="winkler_mm"
     )
@@ -72,6 +78,9 @@ def test_interval_metrics_have_a_row_for_everything(house: House) -> None:
     assert "### Table 6" in text
     published = pd.read_csv(house.work / "results" / "tables" / "published_intervals.csv")
     assert len(published) == 8  # FINGER: four methods, coverage and Winkler score
+    choice = pd.read_csv(house.work / "results" / "tables" / "interval_choice.csv")
+    assert choice.groupby("dataset")["chosen"].sum().to_dict() == dict.fromkeys(DATASETS, 1)
+    assert choice["test_winkler_mm"].gt(0).all()
     assert published["explanation"].str.contains("nearest single coordinate").all()
 
 
@@ -97,7 +106,9 @@ def test_the_store_holds_a_child_run_per_model_and_preset(house: House) -> None:
         experiment = client.get_experiment_by_name(dataset)
         runs = client.search_runs([experiment.experiment_id], max_results=100)
         nested = [run for run in runs if "interval_method" in run.data.tags]
-        assert len(nested) == 2 * 16 + 2 * 2  # SCP by two engines on every run; QR and CQR on two learners
+        # SCP by two engines and by distance, predictive system and regions on every run; by spread on three models,
+        # the own interval on two, CV+ and jackknife+ on six; QR and CQR on two learners
+        assert len(nested) == 5 * 16 + (3 + 2 + 6 + 6) * 2 + 2 * 4
         assert {run.data.tags["mlflow.parentRunId"] for run in nested} <= {run.info.run_id for run in runs}
         parents = [run for run in runs if "mlflow.parentRunId" not in run.data.tags]
         assert len(parents) == 1
@@ -127,7 +138,7 @@ def test_editing_a_model_reruns_its_jobs_and_no_others(house: House) -> None:
         jobs = house.jobs()
     finally:
         file.write_text(original)
-    jobs = [job for job in jobs if job[0] not in ("intervals", "score_intervals")]
+    jobs = [job for job in jobs if job[0] not in ("refit", "intervals", "score_intervals")]
     per_model = {job for job in jobs if job[0] in ("tune", "fit_paper", "fit_tuned", "predict")}
     assert {rule for rule, _ in per_model} == {"tune", "fit_paper", "fit_tuned", "predict"}
     assert all("model=svr" in wildcards for _, wildcards in per_model)
@@ -142,6 +153,8 @@ def test_editing_a_model_reruns_its_jobs_and_no_others(house: House) -> None:
         ("tables/published.py", {"tables"}),
         ("tracking/store.py", {"track"}),
         ("intervals/split_conformal_crepes.py", {"intervals", "score_intervals", "tables", "track"}),
+        ("regions/balls.py", {"score_intervals", "tables", "track"}),
+        ("refitting.py", {"refit", "intervals", "score_intervals", "tables", "track"}),
         ("metrics/interval.py", {"score_intervals", "tables", "track"}),
     ],
 )

@@ -6,10 +6,11 @@ from snakemake.exceptions import WorkflowError
 import softkin
 from softkin.configuration import check_configuration
 from softkin.datasets import READERS
-from softkin.interface import PAPER, PRESETS, SoftkinError, TUNED
+from softkin.interface import PRESETS, SoftkinError, TUNED
 from softkin.intervals import INTERVAL_METHODS
 from softkin.models import MODELS, source_files
 from softkin.quantile_models import QUANTILE_MODELS
+from softkin.regions import REGION_METHODS
 
 try:
     check_configuration(
@@ -20,6 +21,7 @@ try:
             "formats": READERS,
             "interval_methods": INTERVAL_METHODS,
             "quantile_models": QUANTILE_MODELS,
+            "regions": REGION_METHODS,
         },
     )
 except SoftkinError as error:
@@ -34,6 +36,9 @@ TABLES = [
     "point_metrics.csv",
     "marker_errors.csv",
     "interval_metrics.csv",
+    "interval_choice.csv",
+    "conditional_coverage.csv",
+    "alarm_rates.csv",
     "published_comparison.csv",
     "published_intervals.csv",
     *(["published_columns.csv", "selection.csv"] if TUNED in config["presets"] else []),
@@ -44,7 +49,6 @@ wildcard_constraints:
     dataset="|".join(config["sources"]),
     model="|".join(MODELS),
     preset="|".join(PRESETS),
-    interval_method="|".join(INTERVAL_METHODS),
     quantile_model="|".join(QUANTILE_MODELS),
 
 
@@ -63,61 +67,99 @@ def source(wildcards):
     return config["sources"][wildcards.dataset]
 
 
-def every_run():
+def every_run(models=tuple(config["models"])):
     """[model, preset] of each run that one dataset gets."""
-    return [
-        [model, preset] for model in config["models"] for preset in config["presets"]
-    ]
+    return [[model, preset] for model in models for preset in config["presets"]]
 
 
-def run_files(name, presets=tuple(PRESETS)):
+def run_files(name, presets=tuple(PRESETS), models=tuple(config["models"])):
     """One file of each run of a dataset, in the order of `every_run`."""
     return [
         f"results/{{dataset}}/{model}/{preset}/{name}"
-        for model, preset in every_run()
+        for model, preset in every_run(models)
         if preset in presets
     ]
 
 
-def interval_runs(interval_method):
-    """[model, preset] of each model that an interval method is put around."""
-    on_quantiles = [[name, PAPER] for name in config["quantile_models"]]
-    return {"predictions": every_run(), "quantiles": on_quantiles}[
-        INTERVAL_METHODS[interval_method].on
-    ]
+# The models that CV+ and jackknife+-after-bootstrap refit, if any of these methods is asked for.
+CHEAP_MODELS = [name for name in config["models"] if MODELS[name].is_cheap]
+QUANTILE_RUNS = [
+    [name, preset] for name in config["quantile_models"] for preset in config["presets"]
+]
 
 
-def interval_sources(wildcards):
-    """The files an interval method starts from, in the order of `interval_runs`."""
-    pattern = {
-        "predictions": "results/{dataset}/{model}/{preset}/predictions.parquet",
-        "quantiles": "results/{dataset}/quantiles/{model}/{preset}/quantiles.parquet",
-    }[INTERVAL_METHODS[wildcards.interval_method].on]
-    return [
-        pattern.format(dataset=wildcards.dataset, model=model, preset=preset)
-        for model, preset in interval_runs(wildcards.interval_method)
-    ]
-
-
-def interval_runs_of(wildcards):
-    """`interval_runs` of the wildcard's method."""
-    return interval_runs(wildcards.interval_method)
-
-
-def interval_code(wildcards):
-    """The file that defines one interval method."""
-    return Path(
-        sys.modules[
-            INTERVAL_METHODS[wildcards.interval_method].intervals.__module__
-        ].__file__
+def asks_for(*kinds):
+    """Whether a configured interval method starts from one of these kinds of stored outputs."""
+    return any(
+        INTERVAL_METHODS[name].on in kinds for name in config["interval_methods"]
     )
+
+
+def stored_outputs(wildcards):
+    """Everything that the interval methods start from, of one dataset."""
+    quantiles = "results/{{dataset}}/quantiles/{0}/{1}/quantiles.parquet"
+    patterns = {
+        "predictions": run_files("predictions.parquet"),
+        "quantiles": [
+            quantiles.format(*run) for run in QUANTILE_RUNS if asks_for("quantiles")
+        ],
+        "refits": ["results/{dataset}/refits.npz"] * asks_for("folds", "resamples"),
+    }
+    return {
+        name: expand(paths, dataset=wildcards.dataset)
+        for name, paths in patterns.items()
+    }
+
+
+def interval_params():
+    """What the interval rules are told."""
+    return {
+        "methods": config["interval_methods"],
+        "runs": every_run(),
+        "quantile_runs": QUANTILE_RUNS if asks_for("quantiles") else [],
+        "confidence_levels": config["confidence_levels"],
+        "seed": config["seed"],
+    }
+
+
+# What decides how stored outputs become what a method sees.
+EVIDENCE_CODE = [
+    "evidence.py",
+    "bounds.py",
+    "conformal.py",
+    "datasets/table.py",
+    "estimators/column.py",
+    "estimators/refitted.py",
+]
+
+
+def files_of(functions):
+    """The files that define these functions."""
+    names = {getattr(function, "func", function).__module__ for function in functions}
+    return [Path(sys.modules[name].__file__) for name in sorted(names)]
+
+
+def interval_code():
+    """The files that define the configured interval methods."""
+    return files_of(
+        INTERVAL_METHODS[name].intervals for name in config["interval_methods"]
+    )
+
+
+def region_code():
+    """The files that define the configured regions."""
+    return files_of(REGION_METHODS[name].region for name in config["regions"])
 
 
 def quantile_code(wildcards):
     """The file that defines one learner of quantiles."""
-    return Path(
-        sys.modules[QUANTILE_MODELS[wildcards.quantile_model].build.__module__].__file__
-    )
+    return files_of([QUANTILE_MODELS[wildcards.quantile_model].build])
+
+
+def quantile_parameters(wildcards):
+    """For the tuned preset, what its study found."""
+    path = "results/{dataset}/quantiles/{quantile_model}/tuned/parameters.json"
+    return expand(path, **wildcards) if wildcards.preset == TUNED else []
 
 
 def of_every_dataset(patterns):

@@ -1,63 +1,91 @@
-# in:  stored predictions or quantiles of all models of a dataset, and the truth on validation
-# out: the intervals of one method around all of them, on test and extrapolation
-rule intervals:
+# in:  the table of a dataset (rows of train only are fitted on), and with what each cheap model was fitted
+# out: what those models predict when they are refitted on folds and on bootstrap samples of train
+rule refit:
     input:
         table="results/{dataset}/table.parquet",
-        sources=interval_sources,
-        code=package(
-            "calibrating.py",
-            "quantiles.py",
-            "conformal.py",
-            "datasets/table.py",
-            "estimators/column.py",
-        ),
-        interval_code=interval_code,
+        records=run_files("fit.json", models=CHEAP_MODELS),
+        code=package("refitting.py", "fitting.py", "folds.py", "datasets/table.py"),
     output:
-        "results/{dataset}/intervals/{interval_method}.parquet",
+        "results/{dataset}/refits.npz",
     log:
-        "results/logs/intervals/{dataset}/{interval_method}.log",
+        "results/logs/refit/{dataset}.log",
     benchmark:
-        "results/benchmarks/intervals/{dataset}/{interval_method}.tsv"
+        "results/benchmarks/refit/{dataset}.tsv"
+    priority: 10
+    conda:
+        SOFTWARE
+    threads: 1
+    params:
+        runs=every_run(CHEAP_MODELS),
+        refitting=config["refitting"],
+        seed=config["seed"],
+    script:
+        "../scripts/refit.py"
+
+
+# in:  stored outputs of all models of a dataset, and the truth on validation
+# out: the intervals of every method around all of them, on test and extrapolation; and which method is chosen
+# One job for all methods: starting one costs more than calibrating.
+rule intervals:
+    input:
+        unpack(stored_outputs),
+        table="results/{dataset}/table.parquet",
+        parameters=run_files("parameters.json", presets=[TUNED]),
+        code=package(*EVIDENCE_CODE, "calibrating.py", "choosing_intervals.py"),
+        interval_code=interval_code(),
+    output:
+        intervals=expand(
+            "results/{{dataset}}/intervals/{method}.parquet",
+            method=config["interval_methods"],
+        ),
+        choice="results/{dataset}/interval_choice.csv",
+    log:
+        "results/logs/intervals/{dataset}.log",
+    benchmark:
+        "results/benchmarks/intervals/{dataset}.tsv"
     priority: 30
     conda:
         SOFTWARE
     threads: 1
     params:
-        runs=interval_runs_of,
-        confidence_levels=config["confidence_levels"],
+        **interval_params(),
     script:
         "../scripts/intervals.py"
 
 
-# in:  the intervals of all methods of a dataset, and the truth
-# out: the dataset's rows of the interval metrics
+# in:  the intervals of all methods of a dataset, what they were made from, and the truth
+# out: the dataset's rows of the interval metrics, its conditional coverage, its rates of alarm
 rule score_intervals:
     input:
+        unpack(stored_outputs),
         table="results/{dataset}/table.parquet",
         intervals=expand(
             "results/{{dataset}}/intervals/{method}.parquet",
             method=config["interval_methods"],
         ),
-        quantiles=expand(
-            "results/{{dataset}}/quantiles/{model}/paper/quantiles.parquet",
-            model=config["quantile_models"],
-        ),
+        choice="results/{dataset}/interval_choice.csv",
         code=package(
+            *EVIDENCE_CODE,
             "scoring_intervals.py",
+            "scoring_regions.py",
+            "conditional_coverage.py",
             "metrics/interval.py",
-            "conformal.py",
-            "quantiles.py",
         ),
+        region_code=region_code(),
     output:
-        "results/{dataset}/interval_metrics.csv",
+        metrics="results/{dataset}/interval_metrics.csv",
+        conditional="results/{dataset}/conditional_coverage.csv",
+        alarms="results/{dataset}/alarm_rates.csv",
     log:
         "results/logs/score_intervals/{dataset}.log",
+    benchmark:
+        "results/benchmarks/score_intervals/{dataset}.tsv"
     priority: 30
     conda:
         SOFTWARE
+    threads: 1
     params:
-        methods=config["interval_methods"],
-        quantile_runs=[[name, PAPER] for name in config["quantile_models"]],
-        confidence_levels=config["confidence_levels"],
+        **interval_params(),
+        regions=config["regions"],
     script:
         "../scripts/score_intervals.py"

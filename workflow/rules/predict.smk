@@ -8,7 +8,8 @@ rule predict:
             "results/{{dataset}}/{{model}}/{preset}/model.joblib",
             preset=config["presets"],
         ),
-        code=package("fitting.py", "datasets/table.py"),
+        code=package("fitting.py", "estimators/position_scaler.py", "datasets/table.py"),
+        model_code=model_code,
     output:
         predictions=expand(
             "results/{{dataset}}/{{model}}/{preset}/predictions.parquet",

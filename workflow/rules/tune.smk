@@ -7,6 +7,7 @@ rule tune:
         table="results/{dataset}/table.parquet",
         code=package(
             "tuning.py",
+            "folds.py",
             "fitting.py",
             "estimators/position_scaler.py",
             "datasets/table.py",
@@ -24,7 +25,9 @@ rule tune:
     threads: 1
     params:
         study="results/studies/{dataset}/{model}.db",
-        tuning=config["tuning"],
+        n_trials=config["tuning"]["n_trials"],
+        n_folds=config["tuning"]["n_folds"],
+        max_rows=config["tuning"]["max_rows"],
         seed=config["seed"],
     script:
         "../scripts/tune.py"

@@ -1,16 +1,24 @@
-"""Rule intervals: put the intervals of one method around all models of a dataset."""
+"""Rule intervals: put the intervals of every method around all models of a dataset, and choose one."""
 
 from softkin.calibrating import calibrate
+from softkin.choosing_intervals import choose, model_of_choice
+from softkin.evidence import Evidences
 from softkin.intervals import INTERVAL_METHODS
 from softkin.job import job
 
-dataset, method = snakemake.wildcards.dataset, snakemake.wildcards.interval_method
-sources = zip(snakemake.params.runs, snakemake.input.sources, strict=True)
-with job(snakemake.log[0], f"intervals {dataset} {method}"):
-    calibrate(
-        snakemake.input.table,
-        method=INTERVAL_METHODS[method],
-        sources={(model, preset): source for (model, preset), source in sources},
-        confidence_levels=snakemake.params.confidence_levels,
-        intervals=snakemake.output[0],
+given, params = snakemake.input, snakemake.params
+runs = [tuple(run) for run in params.runs]
+methods = {name: INTERVAL_METHODS[name] for name in params.methods}
+tuned = [run for run in runs if run[1] == "tuned"]
+with job(snakemake.log[0], f"intervals {snakemake.wildcards.dataset}"):
+    evidences = Evidences(
+        given.table,
+        predictions=dict(zip(runs, given.predictions, strict=True)),
+        quantiles=dict(zip(map(tuple, params.quantile_runs), given.quantiles, strict=True)),
+        refits=given.refits[0] if given.refits else None,
+        confidence_levels=params.confidence_levels,
     )
+    calibrate(evidences, methods=methods, intervals=dict(zip(methods, snakemake.output.intervals, strict=True)))
+    parameters = {model: file for (model, _), file in zip(tuned, given.parameters, strict=True)}
+    candidates = [(model_of_choice(parameters), "tuned")] if tuned else runs
+    choose(evidences, methods=methods, runs=candidates, seed=params.seed, choice=snakemake.output.choice)

@@ -2,12 +2,14 @@
 
 from softkin.fitting import predict
 from softkin.job import job
+from softkin.models import MODELS
 
 files = zip(snakemake.input.models, snakemake.output.predictions, snakemake.output.records, strict=True)
 with job(snakemake.log[0], "predict {dataset} {model}".format(**snakemake.wildcards)):
     for model, predictions, record in files:
         predict(
             snakemake.input.table,
+            spec=MODELS[snakemake.wildcards.model],
             model=model,
             threads=snakemake.threads,
             predictions=predictions,

@@ -1,19 +1,44 @@
-"""Rule score_intervals: intervals -> interval metrics of one dataset."""
+"""Rule score_intervals: intervals -> interval metrics, conditional coverage and rates of alarm of one dataset."""
 
+from softkin.choosing_intervals import shown_runs
+from softkin.conditional_coverage import conditional_coverage
+from softkin.datasets.table import read_subset
+from softkin.evidence import Evidences
+from softkin.interface import SUBSETS
 from softkin.intervals import INTERVAL_METHODS
 from softkin.job import job
+from softkin.regions import REGION_METHODS
 from softkin.scoring_intervals import score_intervals
+from softkin.scoring_regions import score_alarms
 
-dataset = snakemake.wildcards.dataset
-methods = snakemake.params.methods
-quantiles = zip(snakemake.params.quantile_runs, snakemake.input.quantiles, strict=True)
+dataset, given, params = snakemake.wildcards.dataset, snakemake.input, snakemake.params
+runs = [tuple(run) for run in params.runs]
+intervals = dict(zip(params.methods, given.intervals, strict=True))
 with job(snakemake.log[0], f"score intervals {dataset}"):
-    score_intervals(
-        snakemake.input.table,
-        dataset=dataset,
-        methods={method: INTERVAL_METHODS[method] for method in methods},
-        intervals=dict(zip(methods, snakemake.input.intervals, strict=True)),
-        quantiles={(model, preset): path for (model, preset), path in quantiles},
-        confidence_levels=snakemake.params.confidence_levels,
-        output=snakemake.output[0],
+    evidences = Evidences(
+        given.table,
+        predictions=dict(zip(runs, given.predictions, strict=True)),
+        quantiles=dict(zip(map(tuple, params.quantile_runs), given.quantiles, strict=True)),
+        refits=given.refits[0] if given.refits else None,
+        confidence_levels=params.confidence_levels,
     )
+    score_intervals(
+        given.table,
+        dataset=dataset,
+        methods={name: INTERVAL_METHODS[name] for name in params.methods},
+        intervals=intervals,
+        regions={name: REGION_METHODS[name] for name in params.regions},
+        evidences=evidences,
+        output=snakemake.output.metrics,
+    )
+    conditional_coverage(
+        given.table,
+        dataset=dataset,
+        intervals=intervals,
+        shown=shown_runs(given.choice),
+        confidence_levels=params.confidence_levels,
+        seed=params.seed,
+        output=snakemake.output.conditional,
+    )
+    truth = {subset: read_subset(given.table, subset).positions for subset in SUBSETS}
+    score_alarms(evidences, truth, dataset=dataset, seed=params.seed, output=snakemake.output.alarms)

@@ -78,6 +78,17 @@ class BoundedGaussianProcess(RegressorMixin, BaseEstimator):  # type: ignore[mis
         """Posterior mean (n_rows, n_coordinates)."""
         return np.asarray(self.posterior_.predict(X))
 
+    def predict_std(self, X: Array) -> Array:
+        """Standard deviation (n_rows, n_coordinates) of the posterior predictive distribution, noise included.
+
+        The shared kernel fixes it but for one factor per coordinate, its maximum-likelihood estimate: the root of
+        y' K^-1 y / n (Rasmussen and Williams 2006, section 5.4.1).
+        """
+        _, std = self.posterior_.predict(X, return_std=True)
+        trained = self.posterior_.y_train_.reshape(len(self.posterior_.X_train_), -1)
+        factors = np.sqrt((trained * self.posterior_.alpha_.reshape(trained.shape)).mean(axis=0))
+        return np.asarray(std.reshape(len(X), -1)[:, :1] * factors)
+
     def _kernel(self, n_commands: int) -> Kernel:
         if self.trend == "paper_linear":
             return DotProduct() + WhiteKernel()

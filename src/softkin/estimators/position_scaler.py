@@ -36,3 +36,9 @@ class PositionScaler(TransformerMixin, BaseEstimator):  # type: ignore[misc]
         positions = np.tile(self.constants_, (len(X), 1))
         positions[:, self.kept_] = self.scaler_.inverse_transform(X)
         return positions
+
+    def inverse_spread(self, spread: Array) -> Array:
+        """Standardised spreads of the kept coordinates -> spreads (n_rows, n_coordinates) in mm; 0 where constant."""
+        result = np.zeros((len(spread), len(self.constants_)))
+        result[:, self.kept_] = spread * self.scaler_.scale_
+        return result

@@ -4,16 +4,29 @@ from __future__ import annotations
 
 from softkin.interface import IntervalMethod
 from softkin.intervals import (
+    conformal_predictive_system,
     conformalized_quantile_regression,
+    cross_validation_plus,
+    gaussian,
+    jackknife_plus_after_bootstrap,
     quantile_regression,
     split_conformal_crepes,
+    split_conformal_distance,
     split_conformal_mapie,
+    split_conformal_spread,
 )
 
-#: In the order of the paper's Table 6.
+#: The paper's four in the order of its Table 6, then ours.
 INTERVAL_METHODS: dict[str, IntervalMethod] = {
     "qr": quantile_regression.METHOD,
     "cqr": conformalized_quantile_regression.METHOD,
     "scp_mapie": split_conformal_mapie.METHOD,
     "scp_crepes": split_conformal_crepes.METHOD,
+    "cqr_asymmetric": conformalized_quantile_regression.ASYMMETRIC,
+    "scp_distance": split_conformal_distance.METHOD,
+    "scp_spread": split_conformal_spread.METHOD,
+    "cps": conformal_predictive_system.METHOD,
+    "gaussian": gaussian.METHOD,
+    "cv_plus": cross_validation_plus.METHOD,
+    "jackknife_plus_ab": jackknife_plus_after_bootstrap.METHOD,
 }

@@ -6,8 +6,17 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from softkin.conformal import closed, columns, conformal_rank, engine_level, global_random_state_kept, uncrossed
-from softkin.interface import Array, Evidence, IntervalMethod
+from softkin.conformal import (
+    closed,
+    columns,
+    conformal_rank,
+    engine_level,
+    global_random_state_kept,
+    two_sided_rank,
+    unbounded,
+    uncrossed,
+)
+from softkin.interface import MARGINAL, Array, Evidence, IntervalMethod
 
 #: The pair of quantiles that is corrected is that of the level nearest to this one, the paper's.
 BASE_LEVEL = 0.9
@@ -27,8 +36,7 @@ def intervals(evidence: Evidence, confidence_levels: Sequence[float], *, symmetr
     from softkin.estimators.column import Column
 
     n = len(evidence.truth)
-    result = np.empty((len(confidence_levels), *evidence.new.shape[1:]))
-    result[..., 0], result[..., 1] = -np.inf, np.inf
+    result = unbounded(len(confidence_levels), evidence.new.shape[1:-1])
     base = int(np.argmin(np.abs(np.asarray(confidence_levels) - BASE_LEVEL)))
     pairs, new_pairs = (_with_middle(uncrossed(quantiles[base])) for quantiles in (evidence.calibration, evidence.new))
     for place, level in enumerate(confidence_levels):
@@ -55,4 +63,17 @@ def _with_middle(pairs: Array) -> Array:
     return np.concatenate([pairs, pairs.mean(axis=-1, keepdims=True)], axis=-1)
 
 
-METHOD = IntervalMethod("cqr", "CQR", on="quantiles", guaranteed=True, intervals=intervals)
+def asymmetric_intervals(evidence: Evidence, confidence_levels: Sequence[float]) -> Array:
+    """Each side with its own correction, at half the error."""
+    return intervals(evidence, confidence_levels, symmetric=False)
+
+
+METHOD = IntervalMethod("cqr", "CQR", on="quantiles", guarantee=MARGINAL, intervals=intervals, rank=conformal_rank)
+ASYMMETRIC = IntervalMethod(
+    "cqr_asymmetric",
+    "CQR, asymmetric",
+    on="quantiles",
+    guarantee=MARGINAL,
+    intervals=asymmetric_intervals,
+    rank=two_sided_rank,
+)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from softkin.conformal import uncrossed
-from softkin.interface import Array, Evidence, IntervalMethod
+from softkin.interface import NO_GUARANTEE, Array, Evidence, IntervalMethod
 
 
 def intervals(evidence: Evidence, confidence_levels: Sequence[float]) -> Array:
@@ -16,4 +16,4 @@ def intervals(evidence: Evidence, confidence_levels: Sequence[float]) -> Array:
     return uncrossed(evidence.new)
 
 
-METHOD = IntervalMethod("qr", "QR", on="quantiles", guaranteed=False, intervals=intervals)
+METHOD = IntervalMethod("qr", "QR", on="quantiles", guarantee=NO_GUARANTEE, intervals=intervals)

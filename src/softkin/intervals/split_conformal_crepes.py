@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
-from softkin.conformal import columns, conformal_rank, engine_level
-from softkin.interface import Array, Evidence, IntervalMethod
+from softkin.conformal import columns, conformal_rank, engine_level, unbounded
+from softkin.interface import MARGINAL, Array, Evidence, IntervalMethod
 
 
 def intervals(evidence: Evidence, confidence_levels: Sequence[float]) -> Array:
@@ -19,8 +17,7 @@ def intervals(evidence: Evidence, confidence_levels: Sequence[float]) -> Array:
     from crepes import ConformalRegressor
 
     n = len(evidence.truth)
-    result = np.empty((len(confidence_levels), *evidence.new.shape, 2))
-    result[..., 0], result[..., 1] = -np.inf, np.inf
+    result = unbounded(len(confidence_levels), evidence.new.shape)
     together = zip(columns(evidence.calibration), columns(evidence.truth), columns(evidence.new), strict=True)
     for coordinate, (predicted, true, new) in enumerate(together):
         regressor = ConformalRegressor().fit(true - predicted)
@@ -32,4 +29,12 @@ def intervals(evidence: Evidence, confidence_levels: Sequence[float]) -> Array:
     return result
 
 
-METHOD = IntervalMethod("scp_crepes", "SCP (crepes)", on="predictions", guaranteed=True, intervals=intervals)
+METHOD = IntervalMethod(
+    "scp_crepes",
+    "SCP (crepes)",
+    on="predictions",
+    guarantee=MARGINAL,
+    intervals=intervals,
+    rank=conformal_rank,
+    has_constant_width=True,
+)

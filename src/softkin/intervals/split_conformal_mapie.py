@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from softkin.conformal import columns, conformal_rank, engine_level, global_random_state_kept
-from softkin.interface import Array, Evidence, IntervalMethod
+from softkin.conformal import columns, conformal_rank, engine_level, global_random_state_kept, unbounded
+from softkin.interface import MARGINAL, Array, Evidence, IntervalMethod
 
 
 def intervals(evidence: Evidence, confidence_levels: Sequence[float]) -> Array:
@@ -20,8 +20,7 @@ def intervals(evidence: Evidence, confidence_levels: Sequence[float]) -> Array:
     from softkin.estimators.column import Column
 
     n = len(evidence.truth)
-    result = np.empty((len(confidence_levels), *evidence.new.shape, 2))
-    result[..., 0], result[..., 1] = -np.inf, np.inf
+    result = unbounded(len(confidence_levels), evidence.new.shape)
     ranks = {place: conformal_rank(n, level) for place, level in enumerate(confidence_levels)}
     finite = {place: engine_level(n, rank) for place, rank in ranks.items() if rank is not None}
     if not finite:
@@ -38,4 +37,12 @@ def intervals(evidence: Evidence, confidence_levels: Sequence[float]) -> Array:
     return result
 
 
-METHOD = IntervalMethod("scp_mapie", "SCP (MAPIE)", on="predictions", guaranteed=True, intervals=intervals)
+METHOD = IntervalMethod(
+    "scp_mapie",
+    "SCP (MAPIE)",
+    on="predictions",
+    guarantee=MARGINAL,
+    intervals=intervals,
+    rank=conformal_rank,
+    has_constant_width=True,
+)

@@ -21,6 +21,11 @@ def widths(intervals: Array) -> Array:
     return np.asarray(intervals[..., 1] - intervals[..., 0])
 
 
+def geometric_size(width: Array) -> Array:
+    """Side (n_rows,) of the cube whose volume is that of the box with these widths (n_rows, n_coordinates); mm."""
+    return np.asarray(np.exp(np.log(np.maximum(width, np.finfo(float).tiny)).mean(axis=1)))
+
+
 def winkler_scores(true: Array, intervals: Array, confidence_level: float) -> Array:
     """Winkler (1972) interval scores (n_rows, n_coordinates), the paper's formula; mm.
 
@@ -31,6 +36,12 @@ def winkler_scores(true: Array, intervals: Array, confidence_level: float) -> Ar
     below = np.maximum(intervals[..., 0] - true, 0.0)
     above = np.maximum(true - intervals[..., 1], 0.0)
     return np.asarray(widths(intervals) + 2.0 / alpha * (below + above))
+
+
+def pinball_losses(true: Array, quantiles: Array, quantile: float) -> Array:
+    """Pinball loss of predicted quantiles, elementwise; mm (Koenker and Bassett 1978)."""
+    error = true - quantiles
+    return np.asarray(np.maximum(quantile * error, (quantile - 1) * error))
 
 
 @cache
@@ -66,3 +77,34 @@ def holm(p_values: Array) -> Array:
     adjusted = np.empty(len(p_values))
     adjusted[order] = np.minimum(1.0, np.maximum.accumulate(factors * p_values[order]))
     return adjusted
+
+
+def worst_slab(
+    commands: Array, inside: Array, seed: int, share: float = 0.2, n_directions: int = 200
+) -> NDArray[np.intp]:
+    """Rows of the slab a <= v'u <= b of command space with the lowest coverage, at least `share` of all rows.
+
+    Searched on a random half of the rows over random directions v, and read off the other half, so that the worst of
+    many looks no worse than it is. `inside` (n_rows,) is the share of covered coordinates; returns row numbers.
+    Source: Cauchois, Gupta and Duchi (2021), section 4; Romano, Sesia and Candes (2020).
+    """
+    rng = np.random.default_rng(seed)
+    order = rng.permutation(len(commands))
+    search, rest = np.array_split(order, 2)
+    scale = commands.std(axis=0)
+    standardised = (commands - commands.mean(axis=0)) / np.where(scale > 0, scale, 1.0)
+    least = max(1, int(np.ceil(share * len(search))))
+    worst, found = np.inf, (np.zeros(commands.shape[1]), -np.inf, np.inf)
+    for direction in rng.standard_normal((n_directions, commands.shape[1])):
+        values = standardised[search] @ direction
+        ranked = np.argsort(values, kind="stable")
+        sums = np.concatenate([[0.0], np.cumsum(inside[search][ranked])])
+        for length in (least, (least + len(search)) // 2):
+            means = (sums[length:] - sums[:-length]) / length
+            start = int(np.argmin(means))
+            if means[start] < worst:
+                ends = values[ranked[[start, start + length - 1]]]
+                worst, found = float(means[start]), (direction, float(ends[0]), float(ends[1]))
+    direction, low, high = found
+    values = standardised[rest] @ direction
+    return np.asarray(rest[(low <= values) & (values <= high)])

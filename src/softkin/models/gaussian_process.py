@@ -5,7 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from softkin.interface import ModelSpec, Params
+import numpy as np
+
+from softkin.interface import Array, ModelSpec, Params, Samples
 
 if TYPE_CHECKING:
     from optuna.trial import BaseTrial
@@ -18,6 +20,11 @@ def build(params: Params, seed: int, threads: int) -> Any:
     from softkin.estimators.bounded_gaussian_process import BoundedGaussianProcess
 
     return BoundedGaussianProcess(**params, random_state=seed)
+
+
+def spread(regressor: Any, train: Samples, commands: Array) -> Array:
+    """Standard deviation of the posterior predictive distribution, noise included."""
+    return np.asarray(regressor.predict_std(commands))
 
 
 def search_space(trial: BaseTrial) -> Params:
@@ -47,4 +54,6 @@ SPEC = ModelSpec(
         {"kernel": "rbf", "trend": "linear", **_START},
         {"kernel": "rational_quadratic", "trend": "linear", **_START},
     ),
+    spread=spread,
+    is_predictive=True,
 )

@@ -40,4 +40,5 @@ SPEC = ModelSpec(
         {"n_estimators": 100, "learning_rate": 0.1, "max_depth": 3, "subsample": 1.0, "min_samples_leaf": 1},
         {"n_estimators": 250, "learning_rate": 0.05, "max_depth": 5, "subsample": 0.5, "min_samples_leaf": 1},
     ),
+    is_cheap=True,
 )

@@ -41,4 +41,5 @@ SPEC = ModelSpec(
     paper_params={"alpha": 0.1},
     search_space=search_space,
     first_trials=({"degree": 1, "alpha": 0.1}, {"degree": 2, "alpha": 1e-3}, {"degree": 3, "alpha": 1e-4}),
+    is_cheap=True,
 )

@@ -38,4 +38,5 @@ SPEC = ModelSpec(
     paper_params={},
     search_space=search_space,
     first_trials=tuple({"degree": degree, "interaction_only": False} for degree in (1, 2, 3)),
+    is_cheap=True,
 )

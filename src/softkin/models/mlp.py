@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from softkin.interface import ModelSpec, Params
+from softkin.interface import Array, ModelSpec, Params, Samples
 
 if TYPE_CHECKING:
     from optuna.trial import BaseTrial
+
+ALSO_DECIDED_BY = (Path(__file__).parent.parent / "estimators" / "last_layer_laplace.py",)
 
 
 def build(params: Params, seed: int, threads: int) -> Any:
@@ -16,6 +19,13 @@ def build(params: Params, seed: int, threads: int) -> Any:
 
     rest = {key: value for key, value in params.items() if key not in ("layers", "width")}
     return MLPRegressor(**{"random_state": seed, **rest}, hidden_layer_sizes=(params["width"],) * params["layers"])
+
+
+def spread(regressor: Any, train: Samples, commands: Array) -> Array:
+    """Standard deviation of the last layer's Laplace approximation: the network as a Bayesian one."""
+    from softkin.estimators.last_layer_laplace import last_layer_laplace
+
+    return last_layer_laplace(regressor, train, commands)
 
 
 def search_space(trial: BaseTrial) -> Params:
@@ -47,4 +57,6 @@ SPEC = ModelSpec(
         {"solver": "lbfgs", "layers": 2, "width": 16, "activation": "tanh", "alpha": 1e-2},
         {"solver": "lbfgs", "layers": 2, "width": 32, "activation": "tanh", "alpha": 1e-3},
     ),
+    spread=spread,
+    is_predictive=True,
 )

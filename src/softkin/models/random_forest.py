@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from softkin.interface import ModelSpec, Params
+import numpy as np
+
+from softkin.interface import Array, ModelSpec, Params, Samples
 
 if TYPE_CHECKING:
     from optuna.trial import BaseTrial
@@ -15,6 +17,12 @@ def build(params: Params, seed: int, threads: int) -> Any:
     from sklearn.ensemble import RandomForestRegressor
 
     return RandomForestRegressor(**params, random_state=seed, n_jobs=threads)
+
+
+def spread(regressor: Any, train: Samples, commands: Array) -> Array:
+    """Standard deviation over the trees."""
+    trees = np.stack([tree.predict(commands) for tree in regressor.estimators_])
+    return np.asarray(trees.std(axis=0).reshape(len(commands), -1))
 
 
 def search_space(trial: BaseTrial) -> Params:
@@ -38,4 +46,6 @@ SPEC = ModelSpec(
     first_trials=(
         {"n_estimators": 100, "max_depth": 24, "min_samples_leaf": 1, "max_features": 1.0, "bootstrap": True},
     ),
+    spread=spread,
+    is_cheap=True,
 )

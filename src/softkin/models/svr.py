@@ -50,4 +50,5 @@ SPEC = ModelSpec(
         {"kernel": "rbf", "C": 10.0, "epsilon": 0.01, "gamma": 0.3},
         {"kernel": "poly", "C": 1.0, "epsilon": 0.01, "gamma": 0.3, "degree": 2},
     ),
+    is_cheap=True,
 )

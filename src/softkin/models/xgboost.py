@@ -46,4 +46,5 @@ SPEC = ModelSpec(
             "reg_lambda": 1.0,
         },
     ),
+    is_cheap=True,
 )

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from softkin.interface import Params, QuantileSpec
+
+if TYPE_CHECKING:
+    from optuna.trial import BaseTrial
 
 
 def build(params: Params, quantiles: Sequence[float], seed: int, threads: int) -> Any:
@@ -17,4 +20,24 @@ def build(params: Params, quantiles: Sequence[float], seed: int, threads: int) -
     )
 
 
-SPEC = QuantileSpec("xgb", "XGBoost", build, paper_params={})
+def search_space(trial: BaseTrial) -> Params:
+    """At most 300 trees, all quantiles in each."""
+    return {
+        "n_estimators": trial.suggest_int("n_estimators", 50, 300, step=50),
+        "learning_rate": trial.suggest_float("learning_rate", 0.03, 0.3, log=True),
+        "max_depth": trial.suggest_int("max_depth", 2, 6),
+        "subsample": trial.suggest_float("subsample", 0.4, 1.0),
+        "min_child_weight": trial.suggest_float("min_child_weight", 0.5, 20.0, log=True),
+    }
+
+
+SPEC = QuantileSpec(
+    name="xgb",
+    title="XGBoost",
+    build=build,
+    paper_params={},
+    search_space=search_space,
+    first_trials=(
+        {"n_estimators": 300, "learning_rate": 0.05, "max_depth": 4, "subsample": 1.0, "min_child_weight": 1.0},
+    ),
+)

@@ -10,6 +10,7 @@ import pandas as pd
 
 from softkin.files import read_json, replacing, write_text
 from softkin.tables.headline import headline
+from softkin.tables.interval_choice import interval_choice
 from softkin.tables.paper_layout import SUBSET_TITLES, PaperTable, comparison_table, subset_table
 from softkin.tables.published import compare, compare_columns, read_published, summary
 from softkin.tables.published_intervals import compare_intervals, read_published_intervals, table_6
@@ -21,6 +22,9 @@ def build_tables(
     point: Sequence[str | Path],
     markers: Sequence[str | Path],
     intervals: Sequence[str | Path],
+    choices: Mapping[str, str | Path],
+    conditional: Sequence[str | Path],
+    alarms: Sequence[str | Path],
     descriptions: Sequence[str | Path],
     parameters: Sequence[str | Path],
     studies: Sequence[tuple[str, str]],
@@ -34,7 +38,8 @@ def build_tables(
 ) -> None:
     """Write every table into `folder`.
 
-    `point`, `markers`, `intervals` and `descriptions` hold one file per dataset; `parameters` one per (dataset, model)
+    `point`, `markers`, `intervals`, `conditional`, `alarms` and `descriptions` hold one file per dataset, `choices` is
+    dataset -> file; `parameters` one per (dataset, model)
     of `studies`, or none when nothing was tuned; `sources` are the datasets' entries of config/datasets.yaml.
     """
     scores = pd.concat([pd.read_csv(path) for path in point], ignore_index=True)
@@ -51,8 +56,13 @@ def build_tables(
     interval_scores = pd.concat([pd.read_csv(path) for path in intervals], ignore_index=True)
     interval_cells = compare_intervals(read_published_intervals(published_intervals), interval_scores, scores)
 
+    chosen_intervals = interval_choice({name: pd.read_csv(path) for name, path in choices.items()}, interval_scores)
+
     frames = {"point_metrics": scores, "marker_errors": per_marker, "published_comparison": cells}
     frames |= {"interval_metrics": interval_scores, "published_intervals": interval_cells}
+    frames["interval_choice"] = chosen_intervals
+    for name, paths in (("conditional_coverage", conditional), ("alarm_rates", alarms)):
+        frames[name] = pd.concat([pd.read_csv(path) for path in paths], ignore_index=True)
     frames |= {} if columns is None or chosen is None else {"published_columns": columns, "selection": chosen}
     for name, frame in frames.items():
         with replacing(folder / f"{name}.csv") as temporary:
@@ -66,7 +76,7 @@ def build_tables(
     sentences = summary(cells, columns)
     write_text(folder / "paper_tables.md", "\n".join([_preface(sentences), *(table.markdown() for table in laid_out)]))
     write_text(folder / "paper_tables.tex", "\n".join(table.latex() for table in laid_out))
-    write_text(folder / "headline.txt", headline(chosen, scores, sentences))
+    write_text(folder / "headline.txt", headline(chosen, scores, chosen_intervals, sentences))
 
 
 def _notes(sources: Mapping[str, Mapping[str, Any]], abouts: Sequence[Mapping[str, Any]]) -> dict[tuple[str, str], str]:

@@ -10,7 +10,9 @@ from softkin.interface import EXTRAPOLATION, TEST, TUNED
 from softkin.tables.paper_layout import format_number
 
 
-def headline(selected: pd.DataFrame | None, point: pd.DataFrame, sentences: Sequence[str]) -> str:
+def headline(
+    selected: pd.DataFrame | None, point: pd.DataFrame, intervals: pd.DataFrame, sentences: Sequence[str]
+) -> str:
     """Plain text, under 80 columns."""
     lines = ["", "softkin: forward kinematics, mean error of a marker position (mm)", ""]
     if selected is not None:
@@ -26,6 +28,7 @@ def headline(selected: pd.DataFrame | None, point: pd.DataFrame, sentences: Sequ
             if numbers[0] > numbers[1]:
                 remarks.append(f"  {row.dataset}: a few gross misses set the mean, which exceeds the 95th percentile.")
         lines += ["", "  The model is chosen by cross-validation on `train` alone.", *remarks]
+    lines += _how_sure(intervals)
     lines += [f"  {sentence}" for sentence in sentences]
     lines += [
         "",
@@ -35,3 +38,16 @@ def headline(selected: pd.DataFrame | None, point: pd.DataFrame, sentences: Sequ
         "",
     ]
     return "\n".join(lines)
+
+
+def _how_sure(intervals: pd.DataFrame) -> list[str]:
+    """Per dataset the chosen interval: what surrounds a coordinate, how wide, how often it covers `test`."""
+    chosen = intervals[intervals["chosen"]]
+    level = chosen["confidence_level"].iloc[0]
+    lines = ["", f"  how sure: {level:.0%} intervals, mean over coordinates, on test", ""]
+    lines.append(f"  {'dataset':<20}{'around':<14}{'method':<16}{'width (mm)':>12}{'covers':>10}")
+    for row in chosen.itertuples():
+        around = f"{row.model} {row.preset}"
+        width = format_number(row.test_mean_width_mm)
+        lines.append(f"  {row.dataset:<20}{around:<14}{row.interval_method:<16}{width:>12}{row.test_coverage:>10.1%}")
+    return [*lines, "", "  The method is chosen, and calibrated, on `validation` alone.", ""]

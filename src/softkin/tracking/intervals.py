@@ -13,7 +13,8 @@ from softkin.tracking.store import NOTE, PARENT, Campaign, Record, client_of, de
 
 #: Rows of interval_metrics.csv that become metrics -> what their names start with.
 SHOWN = {"mean_informative": "", "joint": "joint_"}
-METRICS = ("coverage", "mean_width_mm", "winkler_mm", "infinite_share", "crossing_share")
+REGIONS = "joint_regions"
+METRICS = ("coverage", "mean_width_mm", "winkler_mm", "crps_mm", "size_mm", "infinite_share", "crossing_share")
 
 
 def log_intervals(campaign: Campaign, *, dataset: str, metrics: str | Path, parents: Mapping[str, str]) -> int:
@@ -25,7 +26,11 @@ def log_intervals(campaign: Campaign, *, dataset: str, metrics: str | Path, pare
     client = client_of(campaign.tracking_uri)
     experiment = experiment_of(client, dataset, campaign.artifacts)
     kept = set()
-    for (model, preset, method), rows in pd.read_csv(metrics).groupby(["model", "preset", "interval_method"]):
+    table = pd.read_csv(metrics)
+    # All shapes of joint region around a model share a run: one row each is all they have.
+    marginal = set(table.loc[table["coordinate"] == "mean_informative", "interval_method"])
+    table["run"] = table["interval_method"].where(table["interval_method"].isin(marginal), REGIONS)
+    for (model, preset, method), rows in table.groupby(["model", "preset", "run"]):
         parent = parents.get(f"{model}/{preset}", parents["campaign"])
         kept.add(
             put(client, experiment, _record(campaign, dataset, str(model), str(preset), str(method), rows, parent))
@@ -38,7 +43,7 @@ def log_intervals(campaign: Campaign, *, dataset: str, metrics: str | Path, pare
 def _record(
     campaign: Campaign, dataset: str, model: str, preset: str, method: str, rows: pd.DataFrame, parent: str
 ) -> Record:
-    table = rows.to_csv(index=False)
+    table = rows.drop(columns="run").to_csv(index=False)
     return Record(
         key=f"{campaign.name}/{dataset}/{model}/{preset}/{method}",
         name=f"{dataset} · {model} · {preset} · {method}",
@@ -64,11 +69,16 @@ def _metrics(rows: pd.DataFrame) -> dict[str, float]:
     for row in rows[rows["coordinate"].isin(SHOWN)].to_dict("records"):
         for metric in METRICS:
             percent = f"{100 * row['confidence_level']:g}"
-            values[f"{row['subset']}/{SHOWN[row['coordinate']]}{metric}_{percent}"] = float(row[metric])
+            kind = f"{row['interval_method']}_" if row["run"] == REGIONS else SHOWN[row["coordinate"]]
+            values[f"{row['subset']}/{kind}{metric}_{percent}"] = float(row[metric])
     return {name: value for name, value in values.items() if np.isfinite(value)}
 
 
 def _note(rows: pd.DataFrame, method: str) -> str:
+    if method == REGIONS:
+        shown = rows[(rows["subset"] == TEST) & (rows["confidence_level"] == rows["confidence_level"].median())]
+        sizes = [f"{row.interval_method} covers {row.coverage:.1%}, {row.size_mm:.3g} mm" for row in shown.itertuples()]
+        return f"Regions that hold all moving coordinates at once, on test. {'; '.join(sizes)}."
     shown = rows[(rows["coordinate"] == "mean_informative") & (rows["subset"] == TEST)]
     parts = [f"{row.confidence_level:.0%}: covers {row.coverage:.1%}" for row in shown.itertuples()]
     return f"Intervals by **{method}**, on test, averaged over moving coordinates. {', '.join(parts)}."

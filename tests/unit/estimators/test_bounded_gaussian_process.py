@@ -69,3 +69,18 @@ def test_repeated_rows_do_not_break_the_factorisation() -> None:
 def test_it_is_a_scikit_learn_estimator() -> None:
     model = BoundedGaussianProcess("matern32", "linear", random_state=4)
     assert clone(model).get_params() == model.get_params()
+
+
+def test_the_standard_deviation_holds_its_share_of_new_rows_in_every_coordinate() -> None:
+    """Two coordinates share a kernel, and each has a factor of its own."""
+    rng = np.random.default_rng(0)
+    X = rng.uniform(-1, 1, (500, 2))
+    clean = np.column_stack([np.sin(2 * X[:, 0]), X[:, 0] * X[:, 1]])
+    y = clean / clean.std(axis=0) + rng.standard_normal(clean.shape) * 0.3
+    model = BoundedGaussianProcess(max_iter=30).fit(X[:300], y[:300])
+    std = model.predict_std(X[300:])
+    assert std.shape == (200, 2)
+    inside = np.abs(y[300:] - model.predict(X[300:])) <= 1.645 * std
+    assert inside.mean(axis=0) == pytest.approx([0.9, 0.9], abs=0.06)
+    scaled = BoundedGaussianProcess(max_iter=30).fit(X[:300], y[:300] * [1.0, 10.0])
+    assert scaled.predict_std(X[300:])[:, 1].mean() > 5 * scaled.predict_std(X[300:])[:, 0].mean()

@@ -15,11 +15,18 @@ def scores(mean: float, p95: float) -> pd.DataFrame:
     )
 
 
+SURE = pd.DataFrame(
+    [
+        {"dataset": "arm", "model": "gp", "preset": "tuned", "interval_method": method, "confidence_level": 0.9}
+        | {"test_mean_width_mm": width, "test_coverage": 0.912, "chosen": method == "scp_spread"}
+        for method, width in (("scp_spread", 2.5), ("cqr", 7.0))
+    ]
+)
 CHOSEN = pd.DataFrame([{"dataset": "arm", "model": "gp"}])
 
 
 def test_the_chosen_model_and_its_errors() -> None:
-    text = headline(CHOSEN, scores(0.5, 1.25), ["tuned preset: 3 of 4"])
+    text = headline(CHOSEN, scores(0.5, 1.25), SURE, ["tuned preset: 3 of 4"])
     assert "arm gp 0.500 1.25 1.50" in " ".join(text.split())
     assert "tuned preset: 3 of 4" in text
     assert "gross misses" not in text
@@ -27,8 +34,15 @@ def test_the_chosen_model_and_its_errors() -> None:
 
 
 def test_a_mean_set_by_a_few_rows_is_remarked_upon() -> None:
-    assert "arm: a few gross misses set the mean" in headline(CHOSEN, scores(2.0, 1.25), [])
+    assert "arm: a few gross misses set the mean" in headline(CHOSEN, scores(2.0, 1.25), SURE, [])
 
 
 def test_without_tuning_there_is_no_choice_to_show() -> None:
-    assert "chosen" not in headline(None, scores(1.0, 2.0), [])
+    text = headline(None, scores(1.0, 2.0), SURE, [])
+    assert "chosen by cross-validation" not in text
+
+
+def test_the_chosen_interval_and_what_it_covers() -> None:
+    text = headline(CHOSEN, scores(0.5, 1.25), SURE, [])
+    assert "arm gp tuned scp_spread 2.50 91.2%" in " ".join(text.split())
+    assert "cqr" not in text

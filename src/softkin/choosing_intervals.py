@@ -1,0 +1,105 @@
+"""Choose the interval method of a dataset, on `validation` alone: nothing of `test` is looked at."""
+
+from __future__ import annotations
+
+import dataclasses
+import logging
+from collections.abc import Collection, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+from sklearn.model_selection import KFold
+
+from softkin.evidence import Evidences, Run
+from softkin.files import read_json, replacing
+from softkin.interface import MARGINAL, PAPER, Array, Evidence, IntervalMethod, informative_coordinates
+from softkin.metrics.interval import winkler_scores
+
+logger = logging.getLogger("softkin")
+
+#: The level at which methods are compared is the configured one nearest to this, the paper's.
+COMPARED_LEVEL = 0.9
+N_FOLDS = 5
+#: The paper's recipe is gradient boosting, untuned.
+PAPERS_RUN: Run = ("gb", PAPER)
+
+
+def nearest_level(confidence_levels: list[float]) -> float:
+    """The configured level nearest to the paper's."""
+    return min(confidence_levels, key=lambda level: abs(level - COMPARED_LEVEL))
+
+
+def model_of_choice(parameters: Mapping[str, str | Path]) -> str:
+    """The tuned model of lowest cross-validated error on `train`; `parameters` is model -> file of its study."""
+    return min(parameters, key=lambda model: float(read_json(parameters[model])["cv_mae_mm"]))
+
+
+def shown_runs(choice: str | Path) -> set[Run]:
+    """The runs whose intervals are shown at length: the paper's, and those that were candidates."""
+    candidates = pd.read_csv(choice, dtype=str)
+    return {PAPERS_RUN, *zip(candidates["model"], candidates["preset"], strict=True)}
+
+
+def choose(
+    evidences: Evidences,
+    *,
+    methods: Mapping[str, IntervalMethod],
+    runs: Collection[Run],
+    seed: int,
+    choice: str | Path,
+) -> None:
+    """Write the `choice` (CSV: model, preset, interval_method, confidence_level, cv_winkler_mm, chosen), best first.
+
+    Candidates are the methods with a marginal guarantee around one of `runs`, and those on quantiles. Each is
+    calibrated on four fifths of `validation` and scored on the rest, five times over: the mean Winkler score over
+    moving coordinates. Ties go to the method that comes first.
+    """
+    level = nearest_level(evidences.levels)
+    moving = informative_coordinates(evidences.train.positions)
+    rows: list[dict[str, Any]] = []
+    for name, method in methods.items():
+        if method.guarantee != MARGINAL:
+            continue
+        for run, evidence in evidences.of(method.on):
+            if method.on != "quantiles" and run not in runs:
+                continue
+            assert isinstance(evidence, Evidence)
+            scores = []
+            for part, outside in parts(evidence, seed):
+                bounds = method.intervals(part, evidences.levels)[evidences.levels.index(level)]
+                scores.append(winkler_scores(evidence.truth[outside], bounds, level)[:, moving].mean(axis=1))
+            key = {"model": run[0], "preset": run[1], "interval_method": name, "confidence_level": level}
+            rows.append(key | {"cv_winkler_mm": float(np.concatenate(scores).mean())})
+    frame = pd.DataFrame(rows).sort_values("cv_winkler_mm", kind="stable", ignore_index=True)
+    frame["chosen"] = frame.index == 0
+    with replacing(choice) as temporary:
+        frame.to_csv(temporary, index=False)
+    best = frame.iloc[0]
+    logger.info("chosen: %s around %s %s", methods[best["interval_method"]].title, best["model"], best["preset"])
+
+
+def parts(evidence: Evidence, seed: int) -> Iterator[tuple[Evidence, NDArray[np.intp]]]:
+    """The calibration rows split again: evidence calibrated on most of them, whose `new` rows are the others."""
+    axis = 0 if evidence.calibration.ndim == 2 else 1
+    splitter = KFold(N_FOLDS, shuffle=True, random_state=seed)
+    for inside, outside in splitter.split(evidence.truth):
+        yield resplit(evidence, inside, outside, axis), outside
+
+
+def resplit(evidence: Evidence, inside: NDArray[np.intp], outside: NDArray[np.intp], axis: int) -> Evidence:
+    """Calibrated on the calibration rows `inside`, asked about those `outside`."""
+    optional: dict[str, Array] = {}
+    for field in ("spread", "commands"):
+        whole = getattr(evidence, f"calibration_{field}")
+        if whole is not None:
+            optional |= {f"calibration_{field}": whole[inside], f"new_{field}": whole[outside]}
+    return dataclasses.replace(
+        evidence,
+        calibration=evidence.calibration.take(inside, axis),
+        truth=evidence.truth[inside],
+        new=evidence.calibration.take(outside, axis),
+        **optional,
+    )

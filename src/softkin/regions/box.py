@@ -1,0 +1,22 @@
+"""A box around the whole robot: one number for all coordinates, each in its own scale."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from softkin.conformal import conformal_limit, error_scale
+from softkin.interface import Array, Region, RegionMethod
+
+
+def region(train_residuals: Array, residuals: Array, markers: NDArray[np.intp], confidence_level: float) -> Region:  # noqa: ARG001
+    """Max-norm of the residuals in units of the errors on `train`: a split conformal interval of the largest one."""
+    scale = error_scale(np.abs(train_residuals))
+    limit = conformal_limit((np.abs(residuals) / scale).max(axis=1), confidence_level)
+    return Region(
+        covers=lambda new: np.asarray((np.abs(new) / scale).max(axis=1) <= limit),
+        size_mm=float(np.exp(np.log(2 * scale).mean()) * limit),
+    )
+
+
+METHOD = RegionMethod("joint_box", "Box", is_exact=True, region=region)

@@ -1,0 +1,31 @@
+"""The interval method each robot gets, chosen on `validation`, and what it turned out to be worth on `test`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import pandas as pd
+
+from softkin.interface import PAPER, TEST
+
+#: What the paper uses: split conformal prediction around untuned gradient boosting.
+PAPERS = {"model": "gb", "preset": PAPER, "interval_method": "scp_mapie"}
+SHOWN = ("coverage", "mean_width_mm", "winkler_mm")
+
+
+def interval_choice(candidates: Mapping[str, pd.DataFrame], metrics: pd.DataFrame) -> pd.DataFrame:
+    """Candidates of every dataset, best first by `cv_winkler_mm`, with their test scores (mean over moving
+    coordinates) and the ratio of their Winkler score to that of the paper's recipe, where it was run.
+    """
+    test = metrics[(metrics["subset"] == TEST) & (metrics["coordinate"] == "mean_informative")]
+    key = ["dataset", "model", "preset", "interval_method", "confidence_level"]
+    test = test.set_index(key)[list(SHOWN)].add_prefix("test_")
+    frames = []
+    for dataset, frame in candidates.items():
+        mine = frame.assign(dataset=dataset).join(test, on=key)
+        level = float(mine["confidence_level"].iloc[0])
+        papers = (dataset, *PAPERS.values(), level)
+        reference = float(test.loc[papers, "test_winkler_mm"]) if papers in test.index else float("nan")
+        mine["winkler_ratio_to_paper"] = mine["test_winkler_mm"] / reference
+        frames.append(mine[["dataset", *(name for name in mine if name != "dataset")]])
+    return pd.concat(frames, ignore_index=True)

@@ -1,0 +1,72 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from softkin.choosing_intervals import choose, model_of_choice, parts, shown_runs
+from softkin.datasets.table import read_subset, to_table, write_table
+from softkin.evidence import Evidences
+from softkin.files import write_json
+from softkin.interface import SUBSETS, Samples
+from softkin.intervals import INTERVAL_METHODS
+from tests.conftest import bending_arm
+from tests.unit.intervals.test_engines import quantile_evidence, spread_evidence
+
+
+def test_the_model_is_the_one_of_lowest_cross_validated_error(tmp_path: Path) -> None:
+    for model, score in {"lr": 0.5, "gp": 0.1, "svr": 0.1}.items():
+        write_json(tmp_path / f"{model}.json", {"cv_mae_mm": score})
+    assert model_of_choice({model: tmp_path / f"{model}.json" for model in ("lr", "gp", "svr")}) == "gp"
+
+
+def test_calibration_rows_are_split_and_never_judged_by_themselves() -> None:
+    for evidence in (spread_evidence(50), quantile_evidence(50)):
+        axis = 0 if evidence.calibration.ndim == 2 else 1
+        seen = []
+        for part, outside in parts(evidence, 0):
+            inside = np.setdiff1d(np.arange(50), outside)
+            np.testing.assert_array_equal(part.calibration, evidence.calibration.take(inside, axis))
+            np.testing.assert_array_equal(part.new, evidence.calibration.take(outside, axis))
+            np.testing.assert_array_equal(part.truth, evidence.truth[inside])
+            if evidence.calibration_spread is not None and part.new_spread is not None:
+                np.testing.assert_array_equal(part.new_spread, evidence.calibration_spread[outside])
+            seen += outside.tolist()
+        assert sorted(seen) == list(range(50))
+
+
+def test_errors_that_grow_with_the_spread_choose_the_normalised_method(tmp_path: Path) -> None:
+    """And nothing of `test` is looked at: its truth is garbage."""
+    rng = np.random.default_rng(0)
+    subsets = {subset: bending_arm(300, seed=place) for place, subset in enumerate(SUBSETS)}
+    stored = to_table(subsets).drop(columns=["u1", "u2"])
+    for coordinate in ("m1_x", "m1_y", "m1_z"):
+        stored[f"std_{coordinate}"] = rng.choice([0.01, 1.0], len(stored))
+        stored[coordinate] += stored[f"std_{coordinate}"] * rng.standard_normal(len(stored))
+    stored.to_parquet(tmp_path / "p.parquet")
+    choices = []
+    for place, garbage in enumerate((False, True)):
+        rows = dict(subsets)
+        if garbage:
+            rows |= {s: Samples(r.commands, 1e6 + r.positions) for s, r in subsets.items() if "t" in s and s != "train"}
+            rows["validation"] = subsets["validation"]
+        write_table(to_table(rows), tmp_path / "t.parquet")
+        evidences = Evidences(
+            tmp_path / "t.parquet",
+            predictions={("gp", "tuned"): tmp_path / "p.parquet", ("gb", "paper"): tmp_path / "p.parquet"},
+            quantiles={},
+            refits=None,
+            confidence_levels=[0.8, 0.9],
+        )
+        out = tmp_path / f"{place}.csv"
+        choose(evidences, methods=INTERVAL_METHODS, runs=[("gp", "tuned")], seed=0, choice=out)
+        choices.append(pd.read_csv(out))
+    pd.testing.assert_frame_equal(*choices)
+    best = choices[0].iloc[0]
+    assert (best["model"], best["interval_method"], best["chosen"]) == ("gp", "scp_spread", True)
+    assert set(choices[0]["model"]) == {"gp"}
+    assert choices[0]["cv_winkler_mm"].is_monotonic_increasing
+    assert not {"gaussian", "qr", "cv_plus"} & set(choices[0]["interval_method"])
+    assert read_subset(tmp_path / "t.parquet", "test").positions.min() > 1e5
+    assert shown_runs(tmp_path / "0.csv") == {("gb", "paper"), ("gp", "tuned")}
