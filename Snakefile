@@ -22,6 +22,7 @@ include: "workflow/rules/predict.smk"
 include: "workflow/rules/score.smk"
 include: "workflow/rules/quantiles.smk"
 include: "workflow/rules/intervals.smk"
+include: "workflow/rules/figures.smk"
 include: "workflow/rules/tables.smk"
 include: "workflow/rules/track.smk"
 

@@ -8,12 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
     from optuna.trial import BaseTrial
 
 Array = NDArray[np.float64]
@@ -177,3 +180,32 @@ class RegionMethod:
     title: str
     is_exact: bool
     region: Callable[[Array, Array, NDArray[np.intp], float], Region]
+
+
+@dataclass(frozen=True, slots=True)
+class DatasetResults:
+    """Where the results of one dataset lie, for the figures. `intervals` is method -> file; `method_titles` and
+    `on_quantiles` (whether it has a learner of its own) are by method.
+    """
+
+    dataset: str
+    title: str
+    table: Path
+    intervals: Mapping[str, Path]
+    choice: Path
+    conditional: Path
+    method_titles: Mapping[str, str]
+    on_quantiles: Mapping[str, bool]
+
+
+@dataclass(frozen=True, slots=True)
+class FigureSpec:
+    """One figure of a dataset: `frame(results)` is all that it shows, `plot(frame, results)` draws it.
+
+    A frame names the runs it shows in columns model, preset, interval_method; an empty one is not drawn.
+    """
+
+    name: str
+    title: str
+    frame: Callable[[DatasetResults], pd.DataFrame]
+    plot: Callable[[pd.DataFrame, DatasetResults], Figure]

@@ -152,7 +152,7 @@ def test_keys_are_tags_that_can_be_searched(campaign: Campaign, results: dict[st
 
 
 @pytest.fixture
-def interval_metrics(tmp_path: Path) -> Path:
+def interval_files(tmp_path: Path) -> dict[str, Path]:
     rows = []
     for method in ("qr", "scp_mapie"):
         for subset in ("test", "extrapolation"):
@@ -165,31 +165,62 @@ def interval_metrics(tmp_path: Path) -> Path:
                     key | {"interval_method": method, "coordinate": coordinate, "confidence_level": 0.9} | values
                 )
     pd.DataFrame(rows).to_csv(tmp_path / "intervals.csv", index=False)
-    return tmp_path / "intervals.csv"
+    (tmp_path / "figures").mkdir()
+    index = {"figure": "intervals_chosen", "title": "t", "model": "svr", "preset": "tuned"}
+    pd.DataFrame([index | {"interval_method": "scp_mapie"}]).to_csv(tmp_path / "figures" / "index.csv", index=False)
+    for ending in ("png", "csv"):
+        (tmp_path / "figures" / f"intervals_chosen.{ending}").write_text("drawn")
+    return {"metrics": tmp_path / "intervals.csv", "figures": tmp_path / "figures"}
 
 
 def test_interval_runs_hang_on_their_model_and_are_logged_once(
-    campaign: Campaign, results: dict[str, Any], interval_metrics: Path
+    campaign: Campaign, results: dict[str, Any], interval_files: dict[str, Path]
 ) -> None:
     logged = log_dataset(campaign, **results)
-    assert log_intervals(campaign, dataset="finger", metrics=interval_metrics, parents=logged) == 2
+    assert (
+        log_intervals(
+            campaign,
+            dataset="finger",
+            **interval_files,
+            parents=logged,
+        )
+        == 2
+    )
     before = snapshot(campaign)
     nested = [run for run in before.values() if run["data"]["tags"].get("interval_method") == "scp_mapie"]
     assert [run["data"]["tags"][PARENT] for run in nested] == [logged["svr/tuned"]]
     assert nested[0]["data"]["metrics"]["test/coverage_90"] == 0.91
     assert nested[0]["data"]["metrics"]["extrapolation/joint_coverage_90"] == 0.91
     assert "test/joint_winkler_mm_90" not in nested[0]["data"]["metrics"]
-    log_intervals(campaign, dataset="finger", metrics=interval_metrics, parents=log_dataset(campaign, **results))
+    client = MlflowClient(campaign.tracking_uri)
+    pictures = client.list_artifacts(nested[0]["info"]["run_id"], "figures")
+    assert [picture.path for picture in pictures] == ["figures/intervals_chosen.png"]
+    log_intervals(
+        campaign,
+        dataset="finger",
+        **interval_files,
+        parents=log_dataset(campaign, **results),
+    )
     assert snapshot(campaign) == before
 
 
-def test_all_shapes_of_region_share_a_run(campaign: Campaign, results: dict[str, Any], interval_metrics: Path) -> None:
-    table = pd.read_csv(interval_metrics)
+def test_all_shapes_of_region_share_a_run(
+    campaign: Campaign, results: dict[str, Any], interval_files: dict[str, Path]
+) -> None:
+    table = pd.read_csv(interval_files["metrics"])
     joint = table[(table["interval_method"] == "qr") & (table["coordinate"] == "joint")]
     shapes = [joint.assign(interval_method=name) for name in ("joint_box", "joint_balls")]
-    pd.concat([table, *shapes]).to_csv(interval_metrics, index=False)
+    pd.concat([table, *shapes]).to_csv(interval_files["metrics"], index=False)
     logged = log_dataset(campaign, **results)
-    assert log_intervals(campaign, dataset="finger", metrics=interval_metrics, parents=logged) == 3
+    assert (
+        log_intervals(
+            campaign,
+            dataset="finger",
+            **interval_files,
+            parents=logged,
+        )
+        == 3
+    )
     runs = [run["data"] for run in snapshot(campaign).values()]
     (regions,) = [run for run in runs if run["tags"].get("interval_method") == "joint_regions"]
     assert regions["tags"][PARENT] == logged["svr/tuned"]
@@ -199,14 +230,22 @@ def test_all_shapes_of_region_share_a_run(campaign: Campaign, results: dict[str,
 
 
 def test_interval_runs_follow_a_replaced_model_and_leave_with_their_method(
-    campaign: Campaign, results: dict[str, Any], interval_metrics: Path
+    campaign: Campaign, results: dict[str, Any], interval_files: dict[str, Path]
 ) -> None:
     first = log_dataset(campaign, **results)
-    log_intervals(campaign, dataset="finger", metrics=interval_metrics, parents=first)
+    log_intervals(campaign, dataset="finger", **interval_files, parents=first)
     Path(results["runs"]["svr", "tuned"]["predictions"]).write_text("moved")
     second = log_dataset(campaign, **results)
-    table = pd.read_csv(interval_metrics)
-    table[table["interval_method"] == "qr"].to_csv(interval_metrics, index=False)
-    assert log_intervals(campaign, dataset="finger", metrics=interval_metrics, parents=second) == 1
+    table = pd.read_csv(interval_files["metrics"])
+    table[table["interval_method"] == "qr"].to_csv(interval_files["metrics"], index=False)
+    assert (
+        log_intervals(
+            campaign,
+            dataset="finger",
+            **interval_files,
+            parents=second,
+        )
+        == 1
+    )
     nested = [run for run in snapshot(campaign).values() if "interval_method" in run["data"]["tags"]]
     assert [run["data"]["tags"][PARENT] for run in nested] == [second["svr/tuned"]]

@@ -6,6 +6,7 @@ from snakemake.exceptions import WorkflowError
 import softkin
 from softkin.configuration import check_configuration
 from softkin.datasets import READERS
+from softkin.figures import FIGURES
 from softkin.interface import PRESETS, SoftkinError, TUNED
 from softkin.intervals import INTERVAL_METHODS
 from softkin.models import MODELS, source_files
@@ -151,6 +152,11 @@ def region_code():
     return files_of(REGION_METHODS[name].region for name in config["regions"])
 
 
+def figure_code():
+    """The files that define the figures."""
+    return files_of(spec.plot for spec in FIGURES.values())
+
+
 def quantile_code(wildcards):
     """The file that defines one learner of quantiles."""
     return files_of([QUANTILE_MODELS[wildcards.quantile_model].build])
@@ -185,5 +191,6 @@ def final_output():
         "results/tables/paper_tables.md",
         "results/tables/paper_tables.tex",
         *(f"results/tables/{name}" for name in TABLES),
+        *expand("results/{dataset}/figures", dataset=config["datasets"]),
         *expand("results/{dataset}/mlflow_runs.json", dataset=config["datasets"]),
     ]

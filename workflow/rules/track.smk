@@ -24,6 +24,7 @@ rule track:
         parameters=run_files("parameters.json", [TUNED]),
         trials=run_files("trials.csv", [TUNED]),
         intervals="results/{dataset}/interval_metrics.csv",
+        figures="results/{dataset}/figures",
         code=package("tracking/store.py", "tracking/models.py", "tracking/intervals.py"),
     output:
         "results/{dataset}/mlflow_runs.json",

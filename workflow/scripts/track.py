@@ -21,5 +21,7 @@ with job(snakemake.log[0], f"track {snakemake.wildcards.dataset}"):
     )
     logged = log_dataset(campaign, description=given.description, point=given.point, runs=runs)
     dataset = snakemake.wildcards.dataset
-    n_intervals = log_intervals(campaign, dataset=dataset, metrics=given.intervals, parents=logged)
+    n_intervals = log_intervals(
+        campaign, dataset=dataset, metrics=given.intervals, figures=given.figures, parents=logged
+    )
     write_json(snakemake.output[0], {"runs": logged, "interval_runs": n_intervals})

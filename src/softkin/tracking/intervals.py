@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
+from softkin.files import sha256_of
 from softkin.interface import TEST
 from softkin.tracking.store import NOTE, PARENT, Campaign, Record, client_of, delete, experiment_of, find, put
 
@@ -17,14 +18,19 @@ REGIONS = "joint_regions"
 METRICS = ("coverage", "mean_width_mm", "winkler_mm", "crps_mm", "size_mm", "infinite_share", "crossing_share")
 
 
-def log_intervals(campaign: Campaign, *, dataset: str, metrics: str | Path, parents: Mapping[str, str]) -> int:
+def log_intervals(
+    campaign: Campaign, *, dataset: str, metrics: str | Path, figures: str | Path, parents: Mapping[str, str]
+) -> int:
     """Log the dataset's interval metrics; return how many runs there are.
+
+    `figures` is the folder of the dataset's figures, whose index.csv says which run each of them shows.
 
     `parents` is 'model/preset' -> run id of the model, as `log_dataset` returns it. QR and CQR hang on the model of
     their learner's name.
     """
     client = client_of(campaign.tracking_uri)
     experiment = experiment_of(client, dataset, campaign.artifacts)
+    shown = _shown(Path(figures))
     kept = set()
     table = pd.read_csv(metrics)
     # All shapes of joint region around a model share a run: one row each is all they have.
@@ -32,22 +38,39 @@ def log_intervals(campaign: Campaign, *, dataset: str, metrics: str | Path, pare
     table["run"] = table["interval_method"].where(table["interval_method"].isin(marginal), REGIONS)
     for (model, preset, method), rows in table.groupby(["model", "preset", "run"]):
         parent = parents.get(f"{model}/{preset}", parents["campaign"])
-        kept.add(
-            put(client, experiment, _record(campaign, dataset, str(model), str(preset), str(method), rows, parent))
-        )
+        key = (str(model), str(preset), str(method))
+        kept.add(put(client, experiment, _record(campaign, dataset, key, rows, parent, shown.get(key, []))))
     there = find(client, experiment, campaign=campaign.name, kind="intervals")
     delete(client, [run for run in there if run.info.run_id not in kept])
     return len(kept)
 
 
+def _shown(folder: Path) -> dict[tuple[str, str, str], list[Path]]:
+    """(model, preset, method) -> the figures it is shown in, without their ending."""
+    found: dict[tuple[str, str, str], list[Path]] = {}
+    for row in pd.read_csv(folder / "index.csv").to_dict("records"):
+        found.setdefault((row["model"], row["preset"], row["interval_method"]), []).append(folder / row["figure"])
+    return found
+
+
 def _record(
-    campaign: Campaign, dataset: str, model: str, preset: str, method: str, rows: pd.DataFrame, parent: str
+    campaign: Campaign,
+    dataset: str,
+    key: tuple[str, str, str],
+    rows: pd.DataFrame,
+    parent: str,
+    figures: Sequence[Path],
 ) -> Record:
+    model, preset, method = key
     table = rows.drop(columns="run").to_csv(index=False)
     return Record(
         key=f"{campaign.name}/{dataset}/{model}/{preset}/{method}",
         name=f"{dataset} · {model} · {preset} · {method}",
-        content={"parent": parent, "table": table},
+        content={
+            "parent": parent,
+            "table": table,
+            "figures": [sha256_of([path.with_suffix(".csv")]) for path in figures],
+        },
         tags={
             PARENT: parent,
             "kind": "intervals",
@@ -60,6 +83,7 @@ def _record(
         },
         metrics=_metrics(rows),
         texts={"interval_metrics.csv": table},
+        figures=[str(path.with_suffix(".png")) for path in figures],
     )
 
 

@@ -45,7 +45,9 @@ class Campaign:
 
 @dataclass(frozen=True, slots=True)
 class Record:
-    """What one run shows. `content` is what a change of makes it a new run; `texts` and `files` become artifacts."""
+    """What one run shows. `content` is what a change of makes it a new run; `texts` and `files` become artifacts,
+    `figures` artifacts in a folder of that name.
+    """
 
     key: str
     name: str
@@ -56,6 +58,7 @@ class Record:
     params: Mapping[str, Any] = field(default_factory=dict)
     inputs: Sequence[DatasetInput] = ()
     files: Sequence[str] = ()
+    figures: Sequence[str] = ()
     texts: Mapping[str, str] = field(default_factory=dict)
 
 
@@ -115,6 +118,8 @@ def put(client: MlflowClient, experiment: str, record: Record) -> str:
         client.log_inputs(run_id, list(record.inputs))
     for file in record.files:
         client.log_artifact(run_id, file)
+    for file in record.figures:
+        client.log_artifact(run_id, file, "figures")
     for name, text in record.texts.items():
         client.log_text(run_id, text, name)
     # The content tag comes last: a run cut off before it is not taken for whole.

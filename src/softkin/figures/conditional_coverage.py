@@ -1,0 +1,79 @@
+"""Where a method covers and where it does not: coverage on `test` by command, position, width, marker and slab."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+
+from softkin.figures.style import BLACK, PALETTE, panels
+from softkin.interface import DatasetResults, FigureSpec
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+PANELS = {
+    "command_norm": "command norm, fifths",
+    "predicted_position": "distance of the predicted pose\nfrom the mean pose, fifths",
+    "width": "interval width, fifths",
+    "marker": "marker",
+    "slab": "worst slab of\ncommand space",
+}
+#: The two engines agree, so one of them is drawn.
+LEFT_OUT = ("scp_crepes",)
+MARKS = "osD^vP*X"
+
+
+def frame(results: DatasetResults) -> pd.DataFrame:
+    """Rows of conditional_coverage.csv: of the chosen model and of CQR, with `title` of the method."""
+    table = pd.read_csv(results.conditional, dtype={"group": str})
+    choice = pd.read_csv(results.choice)
+    candidates = set(zip(choice["model"], choice["preset"], choice["interval_method"], strict=True))
+    around = choice[~choice["interval_method"].str.startswith("cqr")].iloc[0]
+    cqr = choice[choice["interval_method"] == "cqr"].head(1)
+    kept = {(around["model"], around["preset"], method) for method in table["interval_method"]}
+    kept |= set(zip(cqr["model"], cqr["preset"], cqr["interval_method"], strict=True)) & candidates
+    kept = {run for run in kept if run[2] not in LEFT_OUT}
+    rows = zip(table["model"], table["preset"], table["interval_method"], strict=True)
+    mine = table[np.array([row in kept for row in rows]) & table["by"].isin(PANELS)]
+    titles = mine["interval_method"].map(dict(results.method_titles))
+    return mine.assign(title=titles + ", " + mine["model"] + " " + mine["preset"])
+
+
+def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
+    """A panel for each way to group the rows; bars are two standard errors, the line is the nominal level."""
+    shown = [by for by in PANELS if by in set(frame["by"])]
+    widths = [max(0.6, frame.loc[frame["by"] == by, "group"].nunique() / 5) for by in shown]
+    figure, axes = panels(1, len(shown), 11.0, 4.2, sharey=True, width_ratios=widths)
+    titles = list(frame["title"].unique())
+    for column, by in enumerate(shown):
+        panel = frame[frame["by"] == by]
+        groups = list(dict.fromkeys(panel["group"]))
+        for place, title in enumerate(titles):
+            rows = panel[panel["title"] == title].set_index("group")
+            if rows.empty:
+                continue
+            shift = (place - (len(titles) - 1) / 2) * 0.7 / len(titles)
+            axes[0][column].errorbar(
+                np.array([groups.index(group) for group in rows.index]) + shift,
+                rows["coverage"],
+                yerr=2 * rows["standard_error"],
+                fmt=MARKS[place % len(MARKS)],
+                color=PALETTE[place % len(PALETTE)],
+                markersize=4,
+                linewidth=1,
+                label=title,
+            )
+        axes[0][column].axhline(panel["confidence_level"].iloc[0], color=BLACK, linewidth=0.8, linestyle="--")
+        axes[0][column].set_xticks(range(len(groups)), groups)
+        axes[0][column].set_xlabel(PANELS[by])
+    axes[0][0].set_ylabel("coverage on test")
+    axes[0][0].set_ylim(top=1.02)
+    handles, labels = axes[0][0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=4, frameon=False)
+    figure.suptitle(f"{results.title}: is the coverage there everywhere?", fontsize=10)
+    return figure
+
+
+FIGURE = FigureSpec("conditional_coverage", "Conditional coverage", frame, plot)

@@ -1,0 +1,47 @@
+"""Draw every figure of a dataset: PNG for people, SVG for papers, the frame behind it as CSV."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from softkin.figures.style import SETTINGS
+from softkin.files import replacing
+from softkin.interface import DatasetResults, FigureSpec
+
+logger = logging.getLogger("softkin")
+
+DPI = 150
+RUN_COLUMNS = ["model", "preset", "interval_method"]
+
+
+def draw(figures: Mapping[str, FigureSpec], results: DatasetResults, folder: Path) -> None:
+    """Write {name}.png, .svg and .csv of each figure into `folder`, and index.csv: which run each of them shows.
+
+    A figure whose methods or models were not run has no rows, and is left out with a line in the log.
+    """
+    import matplotlib as mpl
+
+    folder.mkdir(parents=True, exist_ok=True)
+    index: list[dict[str, Any]] = []
+    for name, spec in figures.items():
+        frame = spec.frame(results)
+        if frame.empty:
+            logger.info("no %s: nothing of it was run", name)
+            continue
+        frame.to_csv(folder / f"{name}.csv", index=False)
+        with mpl.rc_context(SETTINGS):
+            figure = spec.plot(frame, results)
+            for ending, metadata in (("png", {"Software": None}), ("svg", {"Date": None})):
+                with replacing(folder / f"{name}.{ending}") as temporary:
+                    figure.savefig(temporary, format=ending, dpi=DPI, metadata=metadata)
+        runs = frame[RUN_COLUMNS].drop_duplicates().to_dict("records")
+        index += [{"figure": name, "title": spec.title, **run} for run in runs]
+        logger.info("drawn: %s", name)
+    columns = ["figure", "title", *RUN_COLUMNS]
+    with replacing(folder / "index.csv") as temporary:
+        pd.DataFrame(index, columns=columns).to_csv(temporary, index=False)

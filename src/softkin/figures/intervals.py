@@ -1,0 +1,90 @@
+"""The paper's Figure 6: intervals of four methods around one coordinate, rows of `test` sorted by true position."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+
+from softkin.bounds import read_bounds
+from softkin.datasets.table import read_subset
+from softkin.figures.style import BLUE, GREY, SKY, VERMILION, panels
+from softkin.interface import PAPER, TEST, TRAIN, DatasetResults, FigureSpec, coordinate_columns
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+#: The paper's four, and the learner that it uses for all of them.
+METHODS = ("qr", "cqr", "scp_mapie", "scp_crepes")
+PAPERS_MODEL = "gb"
+
+
+def frame(results: DatasetResults, *, chosen: bool) -> pd.DataFrame:
+    """Columns model, preset, interval_method, title, coordinate, confidence_level, true, lower, upper (mm), covered.
+
+    A row per row of `test` and method that was run, sorted by true position, of the coordinate that moves furthest on
+    `train`. `chosen`: around the chosen model instead of the paper's; QR and CQR, which have learners of their own,
+    around the paper's learner in the preset of the chosen model.
+    """
+    positions = read_subset(results.table, TRAIN).positions
+    coordinate = int(np.argmax(np.ptp(positions, axis=0)))
+    name = coordinate_columns(positions.shape[1] // 3)[coordinate]
+    true = read_subset(results.table, TEST).positions[:, coordinate]
+    order = np.argsort(true, kind="stable")
+    choice = pd.read_csv(results.choice)
+    level = float(choice["confidence_level"].iloc[0])
+    around = choice[~choice["interval_method"].str.startswith("cqr")].iloc[0]
+    model, preset = (around["model"], around["preset"]) if chosen else (PAPERS_MODEL, PAPER)
+    parts = []
+    for method in (method for method in METHODS if method in results.intervals):
+        stored = pd.read_parquet(results.intervals[method])
+        learner = PAPERS_MODEL if results.on_quantiles[method] else model
+        mine = stored[(stored["model"] == learner) & (stored["preset"] == preset)]
+        if mine.empty:
+            continue
+        bounds = read_bounds(mine, TEST, [level])[0, :, coordinate]
+        part = pd.DataFrame({"true": true, "lower": bounds[:, 0], "upper": bounds[:, 1]}).iloc[order]
+        part["covered"] = (part["lower"] <= part["true"]) & (part["true"] <= part["upper"])
+        key = {"model": learner, "preset": preset, "interval_method": method, "title": results.method_titles[method]}
+        parts.append(part.assign(**key, coordinate=name, confidence_level=level))
+    return pd.concat(parts, ignore_index=True) if parts else pd.DataFrame()
+
+
+def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
+    """Above, positions and intervals as the paper shows them; below, the same from the true position's view."""
+    groups = list(frame.groupby("interval_method", sort=False))
+    figure, axes = panels(2, len(groups), 2.9 * len(groups), 5.0, sharex=True, sharey="row")
+    for column, (_, rows) in enumerate(groups):
+        first = rows.iloc[0]
+        _draw(axes[0][column], rows, 0.0)
+        _draw(axes[1][column], rows, rows["true"].to_numpy())
+        width = (rows["upper"] - rows["lower"]).mean()
+        axes[0][column].set_title(
+            f"{first['title']}, {first['model']} {first['preset']}\n"
+            f"covers {rows['covered'].mean():.1%}, mean width {width:.3g} mm"
+        )
+        axes[1][column].set_xlabel("test row, sorted by true position")
+    coordinate, level = frame["coordinate"].iloc[0], frame["confidence_level"].iloc[0]
+    axes[0][0].set_ylabel(f"{coordinate} (mm)")
+    axes[1][0].set_ylabel("distance from truth (mm)")
+    handles, labels = axes[0][0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False)
+    figure.suptitle(f"{results.title}: {level:.0%} intervals of {coordinate}", fontsize=10)
+    return figure
+
+
+def _draw(axes: Axes, rows: pd.DataFrame, origin: object) -> None:
+    place = np.arange(len(rows))
+    lower, upper, true = (rows[name].to_numpy() - origin for name in ("lower", "upper", "true"))
+    missed = ~rows["covered"].to_numpy()
+    axes.fill_between(place, lower, upper, step="mid", color=SKY, alpha=0.6, linewidth=0, label="interval")
+    axes.plot(place, true, color=BLUE, linewidth=1.0, label="true position")
+    axes.plot(place[missed], true[missed], ".", color=VERMILION, markersize=4, label="true position, missed")
+    axes.axhline(0.0, color=GREY, linewidth=0.4)
+
+
+PAPER_RECIPE = FigureSpec("intervals_paper", "Intervals around the paper's model", partial(frame, chosen=False), plot)
+CHOSEN_MODEL = FigureSpec("intervals_chosen", "Intervals around the chosen model", partial(frame, chosen=True), plot)
