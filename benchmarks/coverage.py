@@ -1,80 +1,139 @@
 """Is 90 % true? Mean coverage over random re-splits of validation and test, against what theory says.
 
-    python benchmarks/coverage.py [--results results] [--splits 200] [--seed 0]
+    python benchmarks/coverage.py [--results results] [--splits 200] [--seed 0] [--datasets finger ...]
 
-Reads the stored predictions and quantiles of a finished run. For each dataset, calibrated method and level, the rows
-of `validation` and `test` are pooled and split anew; the expected coverage of a coordinate is then exactly k / (n + 1),
-which lies in [level, level + 1/(n + 1)], if scores have no ties. Where they have (ELASTICA's copied rows) coverage can
-only be higher. Prints the worst coordinate of each and its distance from the level in standard errors; one more than 3
-below is marked, and the exit status is then 1.
+Reads the stored outputs of a finished run. For each dataset, every method and region with an exact law, around the
+paper's gradient boosting and the chosen model, and each level, the rows of `validation` and `test` are pooled and split
+anew. The expected coverage of a coordinate, or of the whole robot, is then k / (n + 1), which lies in [level, level +
+1/(n + 1)] (2/(n + 1) for two-sided ranks), if scores have no ties. Where they have (ELASTICA's copied rows, a forest)
+it can only be higher. Prints the lowest and the highest coordinate and their distances from that band in standard
+errors; more than 3 below is marked and makes the exit status 1, more than 3 above is marked.
 """
 
 from __future__ import annotations
 
 import argparse
+import dataclasses
 import logging
 import sys
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
-from softkin.calibrating import STORED
+from softkin.choosing_intervals import PAPERS_RUN, resplit
 from softkin.conformal import conformal_rank
 from softkin.datasets.table import read_subset
-from softkin.interface import TEST, TRAIN, VALIDATION, Array, Evidence, informative_coordinates
+from softkin.evidence import Evidences
+from softkin.interface import MARGINAL, SUBSETS, TEST, TRAIN, VALIDATION, Array, Evidence, informative_coordinates
 from softkin.intervals import INTERVAL_METHODS
+from softkin.metrics.interval import covered
+from softkin.regions import REGION_METHODS
+from softkin.scoring_regions import moving_residuals
 
-LEVELS = (0.8, 0.9, 0.95)
-FILES = {"predictions": "gb/paper/predictions.parquet", "quantiles": "quantiles/gb/paper/quantiles.parquet"}
+LEVELS = [0.8, 0.9, 0.95]
+PRESETS = ("paper", "tuned")
+Ranks = Callable[[int, float], int | None]
 
 
-def coverages(folder: Path, method: str, splits: int, seed: int) -> tuple[Array, int]:
-    """Coverage (n_splits, n_levels, n_coordinates) over moving coordinates, and the number of calibration rows."""
-    table = folder / "table.parquet"
-    moving = informative_coordinates(read_subset(table, TRAIN).positions)
-    on = INTERVAL_METHODS[method].on
-    stored = pd.read_parquet(folder / FILES[on])
-    axis = 0 if on == "predictions" else 1
-    parts = [STORED[on](stored, subset, LEVELS) for subset in (VALIDATION, TEST)]
-    pool = np.concatenate(parts, axis=axis).compress(moving, axis=axis + 1)
-    truth = np.concatenate([read_subset(table, subset).positions for subset in (VALIDATION, TEST)])[:, moving]
-    n = parts[0].shape[axis]
-    rng = np.random.default_rng(seed)
-    result = []
-    for _ in range(splits):
-        order = rng.permutation(len(truth))
-        calibration, new = order[:n], order[n:]
-        evidence = Evidence(pool.take(calibration, axis), truth[calibration], pool.take(new, axis))
-        bounds = INTERVAL_METHODS[method].intervals(evidence, LEVELS)
-        result.append(((bounds[..., 0] <= truth[new]) & (truth[new] <= bounds[..., 1])).mean(axis=1))
-    return np.array(result), n
+def evidences_of(folder: Path) -> Evidences:
+    """All stored outputs of a dataset."""
+    quantiles = {
+        (path.parts[-3], path.parts[-2]): path for path in sorted(folder.glob("quantiles/*/*/quantiles.parquet"))
+    }
+    predictions = {(path.parts[-3], path.parts[-2]): path for path in sorted(folder.glob("*/*/predictions.parquet"))}
+    return Evidences(
+        folder / "table.parquet", predictions=predictions, quantiles=quantiles, refits=None, confidence_levels=LEVELS
+    )
+
+
+def pooled(evidence: Evidence, truth: Array, n_test: int, moving: NDArray[np.bool_]) -> Evidence:
+    """The rows of `validation` and `test` as one calibration set, moving coordinates only."""
+    axis = 0 if evidence.calibration.ndim == 2 else 1
+    whole = np.concatenate([evidence.calibration, evidence.new.take(range(n_test), axis)], axis)
+    changed: dict[str, Array] = {"calibration": whole.compress(moving, axis + 1), "truth": truth[:, moving]}
+    for field in ("spread", "commands"):
+        known, new = (getattr(evidence, f"{part}_{field}") for part in ("calibration", "new"))
+        if known is not None:
+            both = np.concatenate([known, new[:n_test]])
+            changed[f"calibration_{field}"] = both[:, moving] if field == "spread" else both
+    if evidence.train_spread is not None:
+        changed["train_spread"] = evidence.train_spread[:, moving]
+    return dataclasses.replace(evidence, **changed)
+
+
+def coverages(folder: Path, splits: int, seed: int) -> Iterator[tuple[str, str, Ranks, int, Array]]:
+    """Method, run, its rank, number of calibration rows, coverage (n_splits, n_levels, n_coordinates)."""
+    evidences = evidences_of(folder)
+    truth = {subset: read_subset(folder / "table.parquet", subset).positions for subset in SUBSETS}
+    moving = informative_coordinates(truth[TRAIN])
+    both = np.concatenate([truth[VALIDATION], truth[TEST]])
+    n, n_test = len(truth[VALIDATION]), len(truth[TEST])
+    choice = pd.read_csv(folder / "interval_choice.csv")
+    runs = {PAPERS_RUN, *zip(choice["model"], choice["preset"], strict=True)}
+    orders = [np.random.default_rng([seed, split]).permutation(len(both)) for split in range(splits)]
+    for name, method in INTERVAL_METHODS.items():
+        if method.guarantee != MARGINAL or method.rank is None:
+            continue
+        for run, evidence in evidences.of(method.on):
+            if run not in runs:
+                continue
+            assert isinstance(evidence, Evidence)
+            pool = pooled(evidence, both, n_test, moving)
+            axis = 0 if pool.calibration.ndim == 2 else 1
+            shares = []
+            for order in orders:
+                part = resplit(pool, order[:n], order[n:], axis)
+                bounds = method.intervals(part, LEVELS)
+                shares.append([covered(both[order[n:]][:, moving], level).mean(axis=0) for level in bounds])
+            yield name, " ".join(run), method.rank, n, np.array(shares)
+    markers = np.flatnonzero(moving) // 3
+    for run, residuals in moving_residuals(evidences, truth):
+        rows = np.concatenate([residuals[VALIDATION], residuals[TEST]])
+        for name, region in REGION_METHODS.items():
+            if run in runs and region.is_exact:
+                shares = [
+                    [
+                        [region.region(residuals[TRAIN], rows[o[:n]], markers, level).covers(rows[o[n:]]).mean()]
+                        for level in LEVELS
+                    ]
+                    for o in orders
+                ]
+                yield name, " ".join(run), conformal_rank, n, np.array(shares)
 
 
 def main() -> int:
-    """Print a line per dataset, method and level; return the exit status."""
+    """Print a line per dataset, method, run and level; return the exit status."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--results", type=Path, default=Path("results"))
     parser.add_argument("--splits", type=int, default=200)
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--datasets", nargs="*")
     options = parser.parse_args()
     logging.disable(logging.INFO)  # MAPIE remarks on every corrected pair that crosses
     bad = 0
-    print(f"{'dataset':<18}{'method':<12}{'level':>6}{'expected':>10}{'mean':>9}{'lowest':>9}{'in errors':>11}")
-    for folder in sorted(path.parent for path in options.results.glob("*/table.parquet")):
-        for method in (name for name, spec in INTERVAL_METHODS.items() if spec.guaranteed):
-            shares, n = coverages(folder, method, options.splits, options.seed)
-            means, errors = shares.mean(axis=0), shares.std(axis=0, ddof=1) / np.sqrt(options.splits)
+    head = f"{'dataset':<18}{'method':<20}{'around':<12}{'level':>6}{'expected':>10}"
+    print(f"{head}{'lowest':>9}{'errors':>8}{'highest':>9}{'errors':>8}")
+    for folder in sorted(path.parent for path in options.results.glob("*/interval_choice.csv")):
+        if options.datasets and folder.name not in options.datasets:
+            continue
+        for name, run, rank_of, n, shares in coverages(folder, options.splits, options.seed):
+            means = shares.mean(axis=0)
+            errors = np.maximum(shares.std(axis=0, ddof=1) / np.sqrt(options.splits), 1e-12)
             for place, level in enumerate(LEVELS):
-                rank = conformal_rank(n, level)
+                rank = rank_of(n, level)
                 if rank is None:
                     continue
-                worst = int(np.argmin(means[place]))
-                distance = (means[place, worst] - level) / errors[place, worst]
-                mark = "  BELOW" if distance < -3 else ""
-                bad += bool(mark)
-                numbers = f"{level:>6}{rank / (n + 1):>10.4f}{means[place].mean():>9.4f}{means[place, worst]:>9.4f}"
-                print(f"{folder.name:<18}{method:<12}{numbers}{distance:>11.1f}{mark}")
+                expected = rank / (n + 1)
+                low, high = int(np.argmin(means[place])), int(np.argmax(means[place]))
+                below = (means[place, low] - level) / errors[place, low]
+                above = (means[place, high] - expected) / errors[place, high]
+                mark = "  BELOW" if below < -3 else "  above" if above > 3 else ""
+                bad += below < -3
+                numbers = f"{means[place, low]:>9.4f}{below:>8.1f}{means[place, high]:>9.4f}{above:>8.1f}"
+                print(f"{folder.name:<18}{name:<20}{run:<12}{level:>6}{expected:>10.4f}{numbers}{mark}", flush=True)
     return int(bad > 0)
 
 
