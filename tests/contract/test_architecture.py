@@ -26,7 +26,7 @@ FLOORS = [
     {"fitting", "quantiles", "tables"},
     {"scoring", "tuning", "tracking", "refitting", "evidence"},
     {"calibrating", "choosing_intervals", "tuning_quantiles", "scoring_regions"},
-    {"scoring_intervals", "conditional_coverage", "figures"},
+    {"scoring_intervals", "conditional_coverage", "figures", "calibrated_model"},
 ]
 #: A folder's __init__ is its registry, preparing is the one call of its stage, build gathers the tables.
 GATHERERS = {"datasets/__init__.py", "datasets/preparing.py", "models/__init__.py", "tables/build.py"}

@@ -191,6 +191,10 @@ def final_output():
         "results/tables/paper_tables.md",
         "results/tables/paper_tables.tex",
         *(f"results/tables/{name}" for name in TABLES),
-        *expand("results/{dataset}/figures", dataset=config["datasets"]),
+        *expand(
+            "results/{dataset}/{name}",
+            dataset=config["datasets"],
+            name=["figures", "calibrated_model.joblib"],
+        ),
         *expand("results/{dataset}/mlflow_runs.json", dataset=config["datasets"]),
     ]
