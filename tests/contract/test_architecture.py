@@ -23,12 +23,14 @@ FLOORS = [
     {"interface", "__init__"},
     {"files", "job", "conformal"},
     {"configuration", "datasets", "estimators", "models", "quantile_models", "intervals", "metrics"},
-    {"fitting", "quantiles", "tables"},
+    {"fitting", "quantiles", "tables", "new_robot"},
     {"scoring", "tuning", "tracking", "calibrating"},
     {"scoring_intervals"},
 ]
-#: A folder's __init__ is its registry, preparing is the one call of its stage, build gathers the tables.
+#: A folder's __init__ is its registry, preparing is the one call of its stage, table_file reads either kind of file,
+#: build gathers the tables.
 GATHERERS = {"datasets/__init__.py", "datasets/preparing.py", "models/__init__.py", "tables/build.py"}
+GATHERERS |= {"datasets/table_file.py"}
 GATHERERS |= {"intervals/__init__.py", "quantile_models/__init__.py", "tables/published_intervals.py"}
 GATHERERS |= {"tables/headline.py", "tracking/__init__.py", "tracking/models.py", "tracking/intervals.py"}
 

@@ -1,6 +1,8 @@
-# in:  nothing (the mirror or the internet)
-# out: the published file of a dataset, hash checked
+# in:  nothing (the mirror or the internet), or a file of one's own
+# out: the file of a dataset as it came, hash checked where a hash is registered
 rule retrieve:
+    input:
+        own_file,
     output:
         "results/{dataset}/raw.json",
     log:

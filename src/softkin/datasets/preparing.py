@@ -7,6 +7,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import pooch
+
 from softkin.datasets import READERS
 from softkin.datasets.table import content_hash, schema, to_table, write_table
 from softkin.files import write_json
@@ -33,9 +35,8 @@ def prepare(
     Raises:
         SoftkinError: the file is not what its entry in config/datasets.yaml says.
     """
-    samples = READERS[source["format"]](
-        raw, dataset=dataset, n_commands=source["n_commands"], n_markers=source["n_markers"]
-    )
+    samples = READERS[source["format"]](raw, dataset=dataset, source=source)
+    n_commands, n_markers = samples[TRAIN].commands.shape[1], samples[TRAIN].positions.shape[1] // 3
     sizes = {subset: len(rows) for subset, rows in samples.items()}
     expected = source.get("rows", sizes)
     for subset in SUBSETS:
@@ -50,23 +51,23 @@ def prepare(
         for subset, rows in samples.items()
     }
     frame = to_table(samples)
-    schema(source["n_commands"], source["n_markers"]).validate(frame)
+    schema(n_commands, n_markers).validate(frame)
     write_table(frame, table)
 
     moving = informative_coordinates(samples[TRAIN].positions)
-    names = coordinate_columns(source["n_markers"])
+    names = coordinate_columns(n_markers)
     write_json(
         description,
         {
             "dataset": dataset,
             "title": source["title"],
-            "sha256": source["sha256"],
-            "n_commands": source["n_commands"],
-            "n_markers": source["n_markers"],
+            "sha256": source.get("sha256") or pooch.file_hash(str(raw), alg="sha256"),
+            "n_commands": n_commands,
+            "n_markers": n_markers,
             "rows": {subset: len(rows) for subset, rows in samples.items()},
             "is_cut": any(len(rows) < sizes[subset] for subset, rows in samples.items()),
             "content_sha256": {subset: content_hash(rows) for subset, rows in samples.items()},
             "constant_coordinates": [name for name, moves in zip(names, moving, strict=True) if not moves],
         },
     )
-    logger.info("%d rows, %d commands, %d coordinates", len(frame), source["n_commands"], 3 * source["n_markers"])
+    logger.info("%d rows, %d commands, %d coordinates", len(frame), n_commands, 3 * n_markers)
