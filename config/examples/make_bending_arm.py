@@ -2,8 +2,8 @@
 
     python config/examples/make_bending_arm.py > config/examples/bending_arm.csv
 
-Pressures in bar, positions in mm with 0.2 mm of noise. Source: Webster and Jones (2010), Design and kinematic modeling of
-constant curvature continuum robots: a review.
+Pressures in bar, positions in mm with 0.2 mm of noise. Source: Webster and Jones (2010), Design and kinematic modeling
+of constant curvature continuum robots: a review.
 """
 
 from __future__ import annotations

@@ -11,6 +11,7 @@ from softkin.interface import SoftkinError
 
 MAX_COMMANDS = 64
 _AXIS = re.compile(r"(?<![A-Za-z])[xyz](?![A-Za-z])|(?<![A-Z])[XYZ](?![A-Za-z])")
+_UNIT = re.compile(r"(?:[\[(_ .])(mm|cm|m|in)[\])]?$")
 
 
 def axis_of(name: str) -> tuple[str, str] | None:
@@ -23,6 +24,12 @@ def axis_of(name: str) -> tuple[str, str] | None:
     if len(found) != 1:
         return None
     return name[: found[0].start()] + name[found[0].end() :], found[0].group().lower()
+
+
+def unit_of(name: str) -> str | None:
+    """The unit of length that a column's name ends with, as in `x_mm` or `x [mm]`."""
+    found = _UNIT.search(name)
+    return found.group(1) if found else None
 
 
 def choose(names: Sequence[str], wanted: str | Sequence[str], key: str) -> list[int]:

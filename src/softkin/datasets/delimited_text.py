@@ -8,6 +8,7 @@ import codecs
 import csv
 import io
 import logging
+import math
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -135,7 +136,7 @@ class DelimitedText:
         for place in numbers:
             cell = row[place].strip(" \t")
             if NUMBER.fullmatch(cell) and ({".": ",", ",": "."}[mark] not in cell):
-                if np.isfinite(float(cell.replace(",", "."))):
+                if math.isfinite(float(cell.replace(",", "."))):
                     continue
                 problem = f"too large a number: '{cell}'", "correct the value or delete the row"
             elif not cell:

@@ -19,6 +19,8 @@ from softkin.interface import EXTRAPOLATION, SUBSETS, TRAIN, VALIDATION, Array, 
 
 logger = logging.getLogger("softkin")
 
+Table = DelimitedText | ParquetColumns
+
 #: Other files that decide what this reader gives.
 ALSO_DECIDED_BY = tuple(Path(str(module.__file__)) for module in (columns, delimited_text, parquet_columns, splitting))
 
@@ -66,7 +68,7 @@ def read(path: str | Path, *, dataset: str, source: Mapping[str, Any]) -> dict[s
     except SoftkinError as error:
         raise SoftkinError(f"{about}: {error}") from error
     for remark in (
-        *_remarks_on_columns(names, values, n_commands, dimensions),
+        *_remarks_on_columns(names, values, n_commands, dimensions, source["position_unit"]),
         *_remarks_on_sizes(sizes, splitting.wanted_shares(source["split"])),
     ):
         logger.warning("%s: %s", about, remark)
@@ -78,7 +80,7 @@ def read(path: str | Path, *, dataset: str, source: Mapping[str, Any]) -> dict[s
     }
 
 
-def open_table(path: str | Path, delimiter: str | None = None) -> DelimitedText | ParquetColumns:
+def open_table(path: str | Path, delimiter: str | None = None) -> Table:
     """The table in a CSV or Parquet file, told apart by their first bytes, not by name.
 
     Raises:
@@ -140,7 +142,9 @@ def _remarks_on_sizes(sizes: Mapping[str, int], wanted: Mapping[str, float]) -> 
         )
 
 
-def _remarks_on_columns(names: Sequence[str], values: Array, n_commands: int, dimensions: int) -> Iterator[str]:
+def _remarks_on_columns(
+    names: Sequence[str], values: Array, n_commands: int, dimensions: int, position_unit: str
+) -> Iterator[str]:
     seen: dict[int, str] = {}
     for place, name in enumerate(names):
         column = values[:, place]
@@ -151,6 +155,12 @@ def _remarks_on_columns(names: Sequence[str], values: Array, n_commands: int, di
         twin = seen.setdefault(hash(column.tobytes()), name)
         if twin != name:
             yield f"columns '{twin}' and '{name}' hold the same numbers\n  mend: leave one out, or export again"
+    units = {unit for name in names[n_commands:] if (unit := columns.unit_of(name))}
+    if units - {position_unit}:
+        yield (
+            f"the names of the positions' columns say {', '.join(sorted(units))}, `position_unit` says {position_unit}\n"
+            "  mend: correct `position_unit`, or bring all columns to one unit"
+        )
     sample = values[:: max(1, len(values) // 10_000), n_commands:]
     ranges = np.subtract(*np.percentile(sample, [99, 1], axis=0)).reshape(-1, dimensions).max(axis=1)
     moving = np.flatnonzero(ranges > 1e-9 * ranges.max(initial=0.0))
