@@ -118,8 +118,15 @@ def append_entry(path: Path, name: str, text: str) -> None:
     entries = _value(before, path, "sources", dict)
     if name in entries:
         raise SoftkinError(f"{path} has an entry '{name}' already\n  mend: choose another name with --name")
-    if _value(after, path, "sources", dict) != entries | yaml.safe_load(text):
-        raise SoftkinError(f"{path}: `sources` is not its last key\n  mend: put the shown text under `sources` by hand")
+    try:
+        is_kept = _value(after, path, "sources", dict) == entries | yaml.safe_load(text)
+    except SoftkinError:
+        is_kept = False
+    if not is_kept:
+        raise SoftkinError(
+            f"{path}: `sources` is not its last key, or its entries are not indented by two\n"
+            "  mend: put the shown text under `sources` by hand"
+        )
     write_text(path, after)
 
 

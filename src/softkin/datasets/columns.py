@@ -11,15 +11,17 @@ from softkin.interface import SoftkinError
 
 MAX_COMMANDS = 64
 _AXIS = re.compile(r"(?<![A-Za-z])[xyz](?![A-Za-z])|(?<![A-Z])[XYZ](?![A-Za-z])")
-_UNIT = re.compile(r"(?:[\[(_ .])(mm|cm|m|in)[\])]?$")
+_UNIT = re.compile(r"[\[(_ .](mm|cm|m|in)[\])]?$")
 
 
 def axis_of(name: str) -> tuple[str, str] | None:
-    """What a column's name says of a position: the rest of the name, and x, y or z. None where it names no one axis.
+    """What a column's name says of a position: the rest of the name without its unit, and x, y or z. None where it says
+    neither, or several.
 
-    >>> axis_of("m2_x [mm]")
-    ('m2_ [mm]', 'x')
+    >>> axis_of("m2_x_mm")
+    ('m2_', 'x')
     """
+    name = _UNIT.sub("", name)
     found = list(_AXIS.finditer(name))
     if len(found) != 1:
         return None

@@ -43,7 +43,7 @@ class DelimitedText:
     names: tuple[str, ...]
 
     def read(self, numbers: Sequence[int], others: Sequence[int]) -> tuple[Array, list[NDArray[Any]]]:
-        """Columns by their places: `numbers` as (n_rows, n_numbers), each of `others` as text (n_rows,).
+        """Columns by their places, each once: `numbers` as (n_rows, n_numbers), each of `others` as text (n_rows,).
 
         Raises:
             SoftkinError: a cell of `numbers` is no finite number, or a row has more or fewer values than the header.

@@ -21,8 +21,8 @@ class ParquetColumns:
     names: tuple[str, ...]
 
     def read(self, numbers: Sequence[int], others: Sequence[int]) -> tuple[Array, list[NDArray[Any]]]:
-        """Columns by their places: `numbers` as (n_rows, n_numbers), each of `others` as text or, where the file holds
-        numbers or times, as numbers (n_rows,).
+        """Columns by their places, each once: `numbers` as (n_rows, n_numbers), each of `others` as text or, where the
+        file holds numbers or times, as numbers (n_rows,).
 
         Raises:
             SoftkinError: a value of `numbers` is no finite number, or a column holds something else.

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pooch
 
 from softkin.datasets import READERS
@@ -16,6 +17,8 @@ from softkin.interface import SUBSETS, TRAIN, Samples, SoftkinError, coordinate_
 
 logger = logging.getLogger("softkin")
 
+#: Positions that range over less or more than this are probably not in the unit that the entry says.
+PLAUSIBLE_MM = (1.0, 10_000.0)
 MM_PER_UNIT = {"m": 1000.0, "cm": 10.0, "mm": 1.0, "in": 25.4}
 
 
@@ -50,6 +53,13 @@ def prepare(
         subset: Samples(rows.commands[:max_rows], rows.positions[:max_rows] * factor)
         for subset, rows in samples.items()
     }
+    widest = np.ptp(samples[TRAIN].positions, axis=0).max()
+    if not PLAUSIBLE_MM[0] <= widest <= PLAUSIBLE_MM[1]:
+        logger.warning(
+            "dataset '%s', file %s: positions range over %.3g mm\n  mend: if that is no such robot, correct "
+            "`position_unit`, which is %s",
+            *(dataset, source["file"], widest, source["position_unit"]),
+        )
     frame = to_table(samples)
     schema(n_commands, n_markers).validate(frame)
     write_table(frame, table)

@@ -30,8 +30,9 @@ MIN_ROWS = dict.fromkeys(SUBSETS, 2) | {TRAIN: 20}
 FEW_CALIBRATION_ROWS = 19
 #: No robot has larger numbers, and arithmetic on larger ones overflows.
 MAX_MAGNITUDE = 1e100
-#: A marker's range this many times another's suggests that they are in different units.
-SUSPICIOUS_RATIO = 300.0
+#: A marker's range this many times that of the next narrower suggests that they are in different units: along an arm
+#: ranges grow gradually.
+SUSPICIOUS_GAP = 100.0
 _MAGIC = {
     b"PK\x03\x04": "an Excel workbook or a zip file; mend: open it and save the sheet as 'CSV UTF-8'",
     b"\xd0\xcf\x11\xe0": "an old Excel workbook; mend: open it and save the sheet as 'CSV UTF-8'",
@@ -54,10 +55,12 @@ def read(path: str | Path, *, dataset: str, source: Mapping[str, Any]) -> dict[s
         commands = columns.choose(table.names, source["commands"], "commands")
         coordinates = columns.choose(table.names, source["positions"], "positions")
         by = columns.choose(table.names, [source["split"]["column"]], "split") if "column" in source["split"] else []
-        names = [table.names[place] for place in (*commands, *coordinates)]
+        chosen = [*commands, *coordinates]
+        names = [table.names[place] for place in chosen]
         n_commands, dimensions = len(commands), source.get("dimensions", 3)
         columns.check(names[:n_commands], names[n_commands:], dimensions, source)
-        values, others = table.read([*commands, *coordinates], by)
+        values, others = table.read(chosen, [place for place in by if place not in chosen])
+        others += [values[:, chosen.index(place)] for place in by if place in chosen]
         _check_magnitudes(names, values, table.place)
         samples = Samples(values[:, :n_commands], _spatial(values[:, n_commands:], dimensions))
         if not len(samples):
@@ -158,18 +161,19 @@ def _remarks_on_columns(
     units = {unit for name in names[n_commands:] if (unit := columns.unit_of(name))}
     if units - {position_unit}:
         yield (
-            f"the names of the positions' columns say {', '.join(sorted(units))}, `position_unit` says {position_unit}\n"
+            f"the names of the columns say {', '.join(sorted(units))}, `position_unit` says {position_unit}\n"
             "  mend: correct `position_unit`, or bring all columns to one unit"
         )
     sample = values[:: max(1, len(values) // 10_000), n_commands:]
     ranges = np.subtract(*np.percentile(sample, [99, 1], axis=0)).reshape(-1, dimensions).max(axis=1)
     moving = np.flatnonzero(ranges > 1e-9 * ranges.max(initial=0.0))
-    if moving.size and ranges.max() > SUSPICIOUS_RATIO * ranges[moving].min():
-        wide, narrow = (
-            names[n_commands + dimensions * int(place)] for place in (ranges.argmax(), moving[ranges[moving].argmin()])
-        )
+    order = moving[np.argsort(ranges[moving])]
+    gaps = ranges[order[1:]] / ranges[order[:-1]]
+    if gaps.max(initial=0.0) > SUSPICIOUS_GAP:
+        place = int(gaps.argmax())
+        narrow, wide = (names[n_commands + dimensions * int(marker)] for marker in order[place : place + 2])
         yield (
-            f"mixed units? the marker of '{wide}' ranges over {ranges.max():g}, that of '{narrow}' over "
-            f"{ranges[moving].min():g} ({ranges.max() / ranges[moving].min():.0f} times less)\n"
+            f"mixed units? the marker of '{wide}' ranges over {ranges[order[place + 1]]:g}, that of '{narrow}' over "
+            f"{ranges[order[place]]:g}, {gaps[place]:.0f} times less, and none in between\n"
             "  mend: bring all markers to one unit; if the second is fixed to the base, leave it out"
         )
