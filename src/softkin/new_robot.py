@@ -87,6 +87,8 @@ def guess_entry(path: Path, title: str, file: str) -> tuple[dict[str, Any], list
             "  mend: name them u1, u2, ..., or write the entry by hand, see config/README.md"
         )
     values, _ = table.read([table.names.index(name) for name in positions], [])
+    if not len(values):
+        raise SoftkinError("a header, but no row of numbers\n  mend: export the file again")
     unit, why_unit = _unit(positions, values)
     split, why_split = _split(table, kinds)
     entry: dict[str, Any] = {
@@ -167,7 +169,7 @@ def _unit(names: Sequence[str], values: Array) -> tuple[str, str]:
     if None not in named:
         unit = str(named.pop())
         return unit, f"position_unit: the columns' names say {unit}"
-    extent = max(np.ptp(column) if len(column) else 0.0 for column in values.T)
+    extent = np.ptp(values, axis=0).max()
     unit = "m" if extent <= LARGEST_METRES else "mm"
     return unit, f"position_unit: guessed from the width of the workspace, {extent:.3g}; please check"
 

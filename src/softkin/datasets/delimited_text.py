@@ -133,6 +133,9 @@ class DelimitedText:
                 f"give each row one value per column, split by '{self.delimiter}'; where numbers have decimal commas, "
                 "split columns by semicolons; or name the character that splits them in `delimiter` of the entry",
             )
+        cells = [row[place] for place in numbers]
+        if _are_plainly_numbers(cells, mark):
+            return None
         for place in numbers:
             cell = row[place].strip(" \t")
             if NUMBER.fullmatch(cell) and ({".": ",", ",": "."}[mark] not in cell):
@@ -155,6 +158,17 @@ class DelimitedText:
                 problem = f"no number: '{cell[:40]}'", "correct the cell, or leave the column out of the entry"
             return f"column '{self.names[place]}': {problem[0]}", problem[1]
         return None
+
+
+def _are_plainly_numbers(cells: Sequence[str], mark: str) -> bool:
+    """A quick yes; a no means that one must look closer."""
+    text = "".join(cells)
+    if not text.isascii() or "_" in text or {".": ",", ",": "."}[mark] in text:
+        return False
+    try:
+        return all(math.isfinite(float(cell.replace(",", "."))) for cell in cells)
+    except ValueError:
+        return False
 
 
 def open_text(path: Path, delimiter: str | None = None) -> DelimitedText:
@@ -196,10 +210,10 @@ def open_text(path: Path, delimiter: str | None = None) -> DelimitedText:
         raise SoftkinError(
             "no rows in the first 256 kB\n  mend: save the table as CSV, one row per line, under a header"
         )
+    tried = repr(delimiter) if delimiter else ", ".join(DELIMITERS.values())
     delimiter = delimiter or max(DELIMITERS, key=lambda candidate: _fit(sample, candidate))
     names = tuple(name.strip() for name in next(_rows(iter(sample), delimiter))[1])
     if len(names) < 2:
-        tried = ", ".join(DELIMITERS.values())
         raise SoftkinError(
             f"line {above + 1}: one column only, '{''.join(names)[:60]}'; columns are split by none of {tried}\n"
             "  mend: save the file as CSV, or name the character that splits columns in `delimiter` of the entry"

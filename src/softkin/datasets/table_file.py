@@ -61,10 +61,10 @@ def read(path: str | Path, *, dataset: str, source: Mapping[str, Any]) -> dict[s
         columns.check(names[:n_commands], names[n_commands:], dimensions, source)
         values, others = table.read(chosen, [place for place in by if place not in chosen])
         others += [values[:, chosen.index(place)] for place in by if place in chosen]
+        if not len(values):
+            raise SoftkinError("a header, but no row of numbers\n  mend: export the file again")
         _check_magnitudes(names, values, table.place)
         samples = Samples(values[:, :n_commands], _spatial(values[:, n_commands:], dimensions))
-        if not len(samples):
-            raise SoftkinError("a header, but no row of numbers\n  mend: export the file again")
         subset_of = splitting.split(source["split"], samples.commands, others[0] if others else None, table.place)
         sizes = dict(zip(SUBSETS, np.bincount(subset_of, minlength=len(SUBSETS)).tolist(), strict=True))
         _check_sizes(sizes)
@@ -109,7 +109,7 @@ def _spatial(positions: Array, dimensions: int) -> Array:
 
 def _check_magnitudes(names: Sequence[str], values: Array, place: Callable[[int], str]) -> None:
     for name, column in zip(names, values.T, strict=True):
-        if np.abs(column).max(initial=0.0) > MAX_MAGNITUDE:
+        if np.abs(column).max() > MAX_MAGNITUDE:
             row = int(np.argmax(np.abs(column)))
             raise SoftkinError(
                 f"{place(row)}, column '{name}': too large a number: {column[row]:g}\n"

@@ -76,6 +76,11 @@ def test_the_delimiter_can_be_named(tmp_path: Path) -> None:
     np.testing.assert_array_equal(read(write(tmp_path, text(" ")), " "), VALUES)
 
 
+def test_a_named_delimiter_that_splits_nothing_is_told(tmp_path: Path) -> None:
+    with pytest.raises(SoftkinError, match="one column only, 'u1,u2,.* split by none of ';'"):
+        open_text(write(tmp_path, text()), ";")
+
+
 def test_a_header_may_have_line_breaks_within_quotes(tmp_path: Path) -> None:
     path = write(tmp_path, '"u\n[bar]",x\n1,2\n3,bad\n')
     table = open_text(path)

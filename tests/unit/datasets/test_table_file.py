@@ -123,6 +123,7 @@ def spoilt(change: Callable[[pd.DataFrame], Any], n_rows: int = 300) -> pd.DataF
         (b"PK\x03\x04 xl/workbook.xml", {}, ["an Excel workbook", "CSV UTF-8"]),
         (b"\x1f\x8b\x08 more", {}, ["gzip", "unpack"]),
         ("u1,u2,m1_x,m1_y,m1_z\n", {}, ["a header, but no row"]),
+        ("u1,u2,m1_x,m1_y\n", {"dimensions": 2}, ["a header, but no row"]),
         (frame(1), {}, ["1 distinct commands: four subsets need at least four"]),
         (frame(10), {}, ["10 rows are too few", "of at least 20"]),
         (frame().drop(columns="u2"), {"commands": ["u1", "u2"]}, ["no column 'u2'", "u1, m1_x, m1_y, m1_z"]),
