@@ -77,7 +77,7 @@ def test_the_delimiter_can_be_named(tmp_path: Path) -> None:
 
 
 def test_a_named_delimiter_that_splits_nothing_is_told(tmp_path: Path) -> None:
-    with pytest.raises(SoftkinError, match="one column only, 'u1,u2,.* split by none of ';'"):
+    with pytest.raises(SoftkinError, match=r"one column only, 'u1,u2,.* split by none of ';'"):
         open_text(write(tmp_path, text()), ";")
 
 
