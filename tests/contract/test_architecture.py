@@ -23,13 +23,15 @@ FLOORS = [
     {"interface", "__init__"},
     {"files", "job", "conformal", "bounds", "folds"},
     {"configuration", "datasets", "estimators", "models", "quantile_models", "intervals", "regions", "metrics"},
-    {"fitting", "quantiles", "tables"},
+    {"fitting", "quantiles", "tables", "new_robot"},
     {"scoring", "tuning", "tracking", "refitting", "evidence"},
     {"calibrating", "choosing_intervals", "tuning_quantiles", "scoring_regions"},
     {"scoring_intervals", "conditional_coverage", "figures", "calibrated_model"},
 ]
-#: A folder's __init__ is its registry, preparing is the one call of its stage, build gathers the tables.
+#: A folder's __init__ is its registry, preparing is the one call of its stage, table_file reads either kind of file,
+#: build gathers the tables.
 GATHERERS = {"datasets/__init__.py", "datasets/preparing.py", "models/__init__.py", "tables/build.py"}
+GATHERERS |= {"datasets/table_file.py"}
 GATHERERS |= {"intervals/__init__.py", "quantile_models/__init__.py", "tables/published_intervals.py"}
 GATHERERS |= {"regions/__init__.py", "regions/ellipsoids.py"}
 #: All figures have one style.

@@ -214,7 +214,7 @@ def test_bad_data_stop_with_a_message_and_lose_nothing(house: House, tmp_path: P
     assert done.returncode != 0
     for part in ("dataset 'finger'", "wrong file: sha256 is", "SOFTKIN_DATA_MIRROR"):
         assert part in output
-    assert not (tmp_path / "results" / "finger" / "raw.json").exists()
+    assert not (tmp_path / "results" / "finger" / "raw").exists()
     assert (tmp_path / "results" / "elastica_2023_09" / "mlflow_runs.json").exists()
 
 

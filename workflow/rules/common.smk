@@ -5,7 +5,7 @@ from snakemake.exceptions import WorkflowError
 
 import softkin
 from softkin.configuration import check_configuration
-from softkin.datasets import READERS
+from softkin.datasets import READERS, reader_files
 from softkin.figures import FIGURES
 from softkin.interface import PRESETS, SoftkinError, TUNED
 from softkin.intervals import INTERVAL_METHODS
@@ -66,6 +66,17 @@ def model_code(wildcards):
 def source(wildcards):
     """The dataset's entry in config/datasets.yaml."""
     return config["sources"][wildcards.dataset]
+
+
+def own_file(wildcards):
+    """The file of one's own that an entry without `urls` names: retrieved again when it changes."""
+    entry = source(wildcards)
+    return [] if "urls" in entry else [entry["file"]]
+
+
+def reader_code(wildcards):
+    """The files that decide how a dataset's file is read."""
+    return reader_files(source(wildcards)["format"])
 
 
 def every_run(models=tuple(config["models"])):

@@ -1,4 +1,4 @@
-"""Rule prepare: published file -> tidy table in mm."""
+"""Rule prepare: the file of a dataset -> tidy table in mm."""
 
 from softkin.datasets.preparing import prepare
 from softkin.job import job

@@ -70,7 +70,9 @@ def test_a_printed_column_may_have_been_another_method_of_its_package() -> None:
     given = metrics()
     plus = given[given["interval_method"] == "scp_mapie"].assign(interval_method="cv_plus", confidence_level=0.95)
     plus.loc[plus["coordinate"] == "m1_z", ["coverage", "winkler_mm"]] = [0.99, 2.96]
-    cells = compare_intervals(PUBLISHED, pd.concat([given, plus]), point(1.0)).set_index(["interval_method", "metric"])
+    cells = compare_intervals(PUBLISHED, pd.concat([given, plus], ignore_index=True), point(1.0)).set_index(
+        ["interval_method", "metric"]
+    )
     cell = cells.loc[("scp_mapie", "winkler_mm")]
     assert (cell["nearest_interval_method"], cell["nearest_confidence_level"]) == ("cv_plus", 0.95)
     assert cell["nearest_verdict"] == "reproduced"
