@@ -21,15 +21,16 @@ MODULES = sorted(path.relative_to(SOURCE) for path in SOURCE.rglob("*.py"))
 #: Lower floors first; a module imports from floors below it, and within its own folder only where listed here.
 FLOORS = [
     {"interface", "__init__"},
-    {"files", "job", "conformal"},
-    {"configuration", "datasets", "estimators", "models", "quantile_models", "intervals", "metrics"},
-    {"fitting", "quantiles", "tables"},
+    {"files", "job", "conformal", "findings", "rows"},
+    {"configuration", "datasets", "estimators", "models", "quantile_models", "intervals", "metrics", "smooth_fit"},
+    {"fitting", "quantiles", "tables", "auditing"},
     {"scoring", "tuning", "tracking", "calibrating"},
     {"scoring_intervals"},
 ]
 #: A folder's __init__ is its registry, preparing is the one call of its stage, build gathers the tables.
 GATHERERS = {"datasets/__init__.py", "datasets/preparing.py", "models/__init__.py", "tables/build.py"}
 GATHERERS |= {"intervals/__init__.py", "quantile_models/__init__.py", "tables/published_intervals.py"}
+GATHERERS |= {"auditing/__init__.py", "auditing/data_card.py", "auditing/cleaning.py"}
 GATHERERS |= {"tables/headline.py", "tracking/__init__.py", "tracking/models.py", "tracking/intervals.py"}
 
 
