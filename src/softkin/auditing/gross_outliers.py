@@ -1,8 +1,8 @@
 """Gross outliers: rows whose pose lies far from a robust smooth fit, and from what the rows around them do.
 
-Far means both: more than `FAR_SCALES` robust standard deviations, and more than `FAR_REACH` of the coordinate's reach.
-The second look, at the neighbours' residuals, spares regions where the fit is poor or the robot noisy. Rows that share
-their pose with another command are left to the check of stuck poses.
+Far means both: beyond the limits of the fit at `FAR_SCALES` standard deviations, and by more than `FAR_REACH` of the
+coordinate's reach. The second look, at the neighbours' residuals, spares regions where the fit is poor or the robot
+noisy. Rows that share their pose with another command are left to the check of stuck poses.
 """
 
 from __future__ import annotations
@@ -54,7 +54,8 @@ def check(samples: Mapping[str, Samples], seed: int = 0) -> CheckResult:
         middle = np.median(around, axis=1)
         spread = 1.4826 * np.median(np.abs(around - middle[:, None]), axis=1)
         misses = np.abs(residuals[candidates] - middle)
-        far = misses > np.maximum(limit, FAR_SCALES * spread)
+        limits = np.maximum(limit, fit.limits(commands[candidates], FAR_SCALES))
+        far = (np.abs(residuals[candidates]) > limits) & (misses > np.maximum(limits, FAR_SCALES * spread))
         mask[candidates[far.any(axis=1)]] = True
         worst = float(misses[far].max(initial=0.0))
     marked = {subset: part.astype(bool) for subset, part in split_by_subset(mask, samples).items()}

@@ -17,7 +17,7 @@ from softkin.interface import TRAIN, Array, Samples, informative_coordinates
 from softkin.rows import Indices, first_of_each, row_groups, shares_its_pose, split_by_subset
 from softkin.smooth_fit import fit_smoothly
 
-#: Farther off the fit than both, in any coordinate: robust standard deviations, and share of the coordinate's reach.
+#: Farther off the fit than both, in any coordinate: standard deviations, and share of the coordinate's reach.
 FAR_SCALES, FAR_REACH = 10.0, 0.001
 
 
@@ -37,7 +37,7 @@ def stuck(commands: Array, positions: Array, seed: int = 0) -> tuple[NDArray[np.
         mask[sharing] = True
         return mask, poses, 0.0
     misses = np.abs(fit.residuals(commands[sharing], positions[sharing]))
-    far = (misses > np.maximum(FAR_SCALES * fit.scale, FAR_REACH * fit.reach)).any(axis=1)
+    far = (misses > np.maximum(fit.limits(commands[sharing], FAR_SCALES), FAR_REACH * fit.reach)).any(axis=1)
     mask[sharing[far]] = True
     return mask, poses, float(misses[far].max(initial=0.0))
 
