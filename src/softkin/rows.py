@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 import pandas as pd
@@ -12,6 +12,29 @@ from softkin.interface import Array, Samples
 
 Indices = NDArray[np.int64]
 
+#: Rows worked on at a time, so that a million rows stand in memory once.
+CHUNK = 50_000
+
+
+def chunks(n_rows: int) -> Iterator[slice]:
+    """Slices of at most `CHUNK` rows, in order."""
+    return (slice(start, start + CHUNK) for start in range(0, n_rows, CHUNK))
+
+
+def stacked_commands(samples: Mapping[str, Samples]) -> Array:
+    """The commands of all subsets (n_rows, n_commands), one below the other."""
+    return np.concatenate([rows.commands for rows in samples.values()])
+
+
+def stacked_positions(samples: Mapping[str, Samples], coordinates: NDArray[np.bool_]) -> Array:
+    """The positions of all subsets (n_rows, n_coordinates where the mask is True) in mm, one below the other."""
+    result = np.empty((sum(map(len, samples.values())), int(coordinates.sum())))
+    start = 0
+    for rows in samples.values():
+        result[start : start + len(rows)] = rows.positions[:, coordinates]
+        start += len(rows)
+    return result
+
 
 def row_groups(values: Array) -> Indices:
     """Number (n_rows,) from 0 of the distinct row that each row of `values` (n_rows, n_columns) is, in order of
@@ -19,7 +42,9 @@ def row_groups(values: Array) -> Indices:
 
     Rows are compared by a hash of 64 bits: among a million distinct rows, two share one with a probability of 3e-8.
     """
-    hashes = pd.util.hash_pandas_object(pd.DataFrame(values + 0.0), index=False).to_numpy()
+    hashes = np.empty(len(values), dtype=np.uint64)
+    for part in chunks(len(values)):
+        hashes[part] = pd.util.hash_pandas_object(pd.DataFrame(values[part] + 0.0), index=False).to_numpy()
     return np.asarray(pd.factorize(hashes)[0], dtype=np.int64)
 
 

@@ -15,7 +15,7 @@ from scipy.linalg import lstsq, pinv
 from sklearn.preprocessing import PolynomialFeatures
 
 from softkin.interface import CONSTANT_RANGE_MM, Array
-from softkin.rows import Indices, sampled_rows
+from softkin.rows import Indices, chunks, sampled_rows
 
 MAX_DEGREE, MAX_TERMS, ROWS_PER_TERM, ROWS_PER_LINEAR_TERM = 8, 250, 8, 3
 MAX_ROWS_FITTED = 10_000
@@ -23,14 +23,13 @@ MAX_REFITS = 10
 #: A refit leaves out rows farther off than both, in any coordinate: robust standard deviations, share of the reach. The
 #: second keeps the corners in, where a noiseless robot's fit is worst and would be worse without them.
 REFIT_WITHOUT_BEYOND, REFIT_WITHOUT_REACH = 8.0, 0.01
-#: Rows predicted at a time, so that a million rows never stand in memory with all their terms.
-CHUNK = 50_000
 
 
 @dataclass(frozen=True, slots=True)
 class SmoothFit:
     """`scale` (n_coordinates,) is the robust standard deviation of a residual, `reach` (n_coordinates,) the width of
-    the middle 90 % of positions (of all where these stand still), both in mm. At `degree` 0 the rows were too few to tell anything.
+    the middle 90 % of positions, or of all where these stand still; both in mm. At `degree` 0 the rows were too few to
+    tell anything.
     """
 
     degree: int
@@ -46,8 +45,7 @@ class SmoothFit:
     def residuals(self, commands: Array, positions: Array) -> Array:
         """Measured minus expected position (n_rows, n_coordinates) in mm."""
         result = np.empty_like(positions)
-        for start in range(0, len(commands), CHUNK):
-            part = slice(start, start + CHUNK)
+        for part in chunks(len(commands)):
             result[part] = positions[part] - self._terms(commands[part]) @ self.coefficients
         return result
 

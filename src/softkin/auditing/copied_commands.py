@@ -8,7 +8,7 @@ import numpy as np
 
 from softkin.findings import LEAK, LEAK_CONSEQUENCES, WARNING, CheckResult, finding_of_rows
 from softkin.interface import TRAIN, Samples
-from softkin.rows import row_groups, split_by_subset
+from softkin.rows import row_groups, split_by_subset, stacked_commands
 
 #: From this share of a subset's rows on, copies are a leak: its score is training error. Below, they are a few rows.
 LEAK_SHARE = 0.01
@@ -16,7 +16,7 @@ LEAK_SHARE = 0.01
 
 def check(samples: Mapping[str, Samples]) -> CheckResult:
     """A finding per subset with copies."""
-    groups = row_groups(np.vstack([rows.commands for rows in samples.values()]))
+    groups = row_groups(stacked_commands(samples))
     by_subset = split_by_subset(groups, samples)
     findings, numbers = [], {}
     for subset, consequence in LEAK_CONSEQUENCES.items():

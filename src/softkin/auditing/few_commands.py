@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-import numpy as np
-
 from softkin.findings import WARNING, CheckResult, Finding
-from softkin.interface import TRAIN, Samples
-from softkin.rows import row_groups
+from softkin.interface import TRAIN, Array, Samples
+from softkin.rows import row_groups, stacked_commands
 
 #: Fewer distinct commands than this share of the rows of train are few.
 FEW_SHARE = 0.5
@@ -17,7 +15,7 @@ FEW_SHARE = 0.5
 def check(samples: Mapping[str, Samples]) -> CheckResult:
     """At most one finding, about train; the count over all subsets stands in it."""
     distinct = {subset: _distinct(rows.commands) for subset, rows in samples.items()}
-    in_all = _distinct(np.vstack([rows.commands for rows in samples.values()]))
+    in_all = _distinct(stacked_commands(samples))
     numbers = {"distinct": distinct, "distinct_in_all_subsets": in_all}
     n_train, total = len(samples[TRAIN]), sum(map(len, samples.values()))
     if distinct[TRAIN] >= FEW_SHARE * n_train:
@@ -33,5 +31,5 @@ def check(samples: Mapping[str, Samples]) -> CheckResult:
     return CheckResult((finding,), numbers)
 
 
-def _distinct(commands: np.ndarray[tuple[int, int], np.dtype[np.float64]]) -> int:
+def _distinct(commands: Array) -> int:
     return int(row_groups(commands).max(initial=-1)) + 1

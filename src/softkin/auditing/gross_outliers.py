@@ -15,7 +15,17 @@ from sklearn.neighbors import NearestNeighbors
 
 from softkin.findings import WARNING, CheckResult, counted, finding_of_rows
 from softkin.interface import TRAIN, Samples, informative_coordinates
-from softkin.rows import command_scale, first_of_each, row_groups, sampled_rows, shares_its_pose, split_by_subset
+from softkin.rows import (
+    chunks,
+    command_scale,
+    first_of_each,
+    row_groups,
+    sampled_rows,
+    shares_its_pose,
+    split_by_subset,
+    stacked_commands,
+    stacked_positions,
+)
 from softkin.smooth_fit import fit_smoothly
 
 FAR_SCALES, FAR_REACH = 10.0, 0.01
@@ -29,17 +39,16 @@ def check(samples: Mapping[str, Samples], seed: int = 0) -> CheckResult:
     moving = informative_coordinates(samples[TRAIN].positions)
     if not moving.any():
         return CheckResult((), {"not_measured": "no coordinate moves"})
-    commands = np.vstack([rows.commands for rows in samples.values()])
-    positions = np.vstack([rows.positions[:, moving] for rows in samples.values()])
+    commands, positions = stacked_commands(samples), stacked_positions(samples, moving)
     poses = row_groups(positions)
     fit = fit_smoothly(commands, positions, first_of_each(poses), seed)
     numbers: dict[str, Any] = {"degree_of_fit": fit.degree, "rows_fitted": fit.n_fitted}
     if fit.degree == 0:
         return CheckResult((), numbers | {"not_measured": "too few distinct rows to fit a plane through"})
-    residuals = fit.residuals(commands, positions)
-    del positions
     limit = np.maximum(FAR_SCALES * fit.scale, FAR_REACH * fit.reach)
-    excess = (np.abs(residuals) / limit).max(axis=1)
+    excess = np.empty(len(commands))
+    for part in chunks(len(commands)):
+        excess[part] = (np.abs(fit.residuals(commands[part], positions[part])) / limit).max(axis=1)
     excess[shares_its_pose(poses, row_groups(commands))] = 0.0
     candidates = np.flatnonzero(excess > 1)
     candidates = candidates[np.argsort(-excess[candidates], kind="stable")[:MAX_CANDIDATES]]
@@ -50,12 +59,15 @@ def check(samples: Mapping[str, Samples], seed: int = 0) -> CheckResult:
         scaled = commands / command_scale(samples[TRAIN].commands)
         others = sampled_rows(len(commands), MAX_NEIGHBOUR_ROWS, seed)
         tree = NearestNeighbors(n_neighbors=min(N_NEIGHBOURS, len(others))).fit(scaled[others])
-        around = residuals[others[tree.kneighbors(scaled[candidates], return_distance=False)]]
+        neighbours = others[tree.kneighbors(scaled[candidates], return_distance=False)]
+        around = fit.residuals(commands[neighbours.ravel()], positions[neighbours.ravel()])
+        around = around.reshape(*neighbours.shape, -1)
         middle = np.median(around, axis=1)
         spread = 1.4826 * np.median(np.abs(around - middle[:, None]), axis=1)
-        misses = np.abs(residuals[candidates] - middle)
+        residuals = fit.residuals(commands[candidates], positions[candidates])
+        misses = np.abs(residuals - middle)
         limits = np.maximum(limit, fit.limits(commands[candidates], FAR_SCALES))
-        far = (np.abs(residuals[candidates]) > limits) & (misses > np.maximum(limits, FAR_SCALES * spread))
+        far = (np.abs(residuals) > limits) & (misses > np.maximum(limits, FAR_SCALES * spread))
         mask[candidates[far.any(axis=1)]] = True
         worst = float(misses[far].max(initial=0.0))
     marked = {subset: part.astype(bool) for subset, part in split_by_subset(mask, samples).items()}

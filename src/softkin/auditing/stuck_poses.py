@@ -14,7 +14,15 @@ from numpy.typing import NDArray
 
 from softkin.findings import WARNING, CheckResult, counted, finding_of_rows
 from softkin.interface import TRAIN, Array, Samples, informative_coordinates
-from softkin.rows import Indices, first_of_each, row_groups, shares_its_pose, split_by_subset
+from softkin.rows import (
+    Indices,
+    first_of_each,
+    row_groups,
+    shares_its_pose,
+    split_by_subset,
+    stacked_commands,
+    stacked_positions,
+)
 from softkin.smooth_fit import fit_smoothly
 
 #: Farther off the fit than both, in any coordinate: standard deviations, and share of the coordinate's reach.
@@ -47,8 +55,7 @@ def check(samples: Mapping[str, Samples], seed: int = 0) -> CheckResult:
     moving = informative_coordinates(samples[TRAIN].positions)
     if not moving.any():
         return CheckResult((), {"not_measured": "no coordinate moves"})
-    commands = np.vstack([rows.commands for rows in samples.values()])
-    mask, poses, worst = stuck(commands, np.vstack([rows.positions[:, moving] for rows in samples.values()]), seed)
+    mask, poses, worst = stuck(stacked_commands(samples), stacked_positions(samples, moving), seed)
     marked = {subset: part.astype(bool) for subset, part in split_by_subset(mask, samples).items()}
     n_poses = len(np.unique(poses[mask]))
     numbers = {
