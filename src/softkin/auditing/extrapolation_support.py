@@ -1,8 +1,9 @@
 """Does extrapolation lie outside train? Command norms, and the share of rows outside the convex hull of train commands.
 
 A row is outside when a plane separates its command from all train commands. The plane across the line from the centre
-of train is tried first, then the best one is sought by linear programming (scipy, HiGHS), which works with any number
-of commands. The hull is that of the `MAX_HULL` outermost train commands: those that decide it, nearly always.
+of train is tried first; then the best one is sought by linear programming (scipy, HiGHS), which works with any number
+of commands: first against a few train commands, then also against those on the wrong side of the plane that was found,
+until there are none (outside) or no plane is left (inside). The answer is that of all `hull` commands at once.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from softkin.findings import WARNING, CheckResult, Finding
 from softkin.interface import EXTRAPOLATION, SUBSETS, TRAIN, Array, Samples
 from softkin.rows import command_scale, first_of_each, row_groups, sampled_rows
 
-MAX_HULL, MAX_ROWS_LOOKED_AT = 2_000, 150
+MAX_HULL, MAX_ROWS_LOOKED_AT = 50_000, 100
 #: With less than this share of extrapolation outside the hull, most of it is interpolation.
 OUTSIDE_SHARE = 0.5
 #: Nearer to the hull than this (in standard deviations of the commands on train) counts as inside.
@@ -29,20 +30,36 @@ def outside_hull(points: Array, hull: Array) -> NDArray[np.bool_]:
     """Mask (n_points,) of the `points` outside the convex hull of the rows of `hull`, same columns in both."""
     centre = hull.mean(axis=0)
     points, hull = points - centre, hull - centre
-    lengths = np.linalg.norm(points, axis=1)
-    outside = np.asarray((points @ hull.T).max(axis=1) < lengths**2 - TOLERANCE * lengths)
-    n_columns = hull.shape[1]
-    for i in np.flatnonzero(~outside):
-        # Maximise a x - b over |a_j| <= 1 with a h <= b for each row h of the hull; above 0, a plane separates.
+    return np.array([_is_outside(point, hull) for point in points])
+
+
+def _is_outside(point: Array, hull: Array) -> bool:
+    along, length = hull @ point, np.linalg.norm(point)
+    if along.max() < length**2 - TOLERANCE * length:
+        return True
+    seen = _largest(along, 4 * len(point))
+    while True:
+        # Maximise a x - b over |a_j| <= 1 with a h <= b for each row h seen of the hull; above 0, a plane separates.
         best = linprog(
-            np.append(-points[i], 1.0),
-            A_ub=np.column_stack([hull, -np.ones(len(hull))]),
-            b_ub=np.zeros(len(hull)),
-            bounds=[(-1.0, 1.0)] * n_columns + [(None, None)],
+            np.append(-point, 1.0),
+            A_ub=np.column_stack([hull[seen], -np.ones(len(seen))]),
+            b_ub=np.zeros(len(seen)),
+            bounds=[(-1.0, 1.0)] * len(point) + [(None, None)],
             method="highs",
         )
-        outside[i] = -best.fun > TOLERANCE
-    return outside
+        if -best.fun <= TOLERANCE:
+            return False
+        beyond = hull @ best.x[:-1] - best.x[-1]
+        beyond[seen] = -np.inf
+        if beyond.max() <= TOLERANCE:
+            return True
+        worst = _largest(beyond, 4 * len(point))
+        seen = np.append(seen, worst[beyond[worst] > TOLERANCE])
+
+
+def _largest(values: Array, count: int) -> NDArray[np.intp]:
+    """Places of the `count` largest values."""
+    return np.argpartition(-values, min(count, len(values)) - 1)[:count]
 
 
 def check(samples: Mapping[str, Samples], seed: int = 0) -> CheckResult:
@@ -50,9 +67,8 @@ def check(samples: Mapping[str, Samples], seed: int = 0) -> CheckResult:
     train = samples[TRAIN].commands
     scale = command_scale(train)
     hull = train[first_of_each(row_groups(train))] / scale
-    outermost = np.argsort(-np.linalg.norm(hull - hull.mean(axis=0), axis=1), kind="stable")[:MAX_HULL]
-    hull = hull[np.sort(outermost)]
-    numbers: dict[str, Any] = {"hull_commands": len(hull)}
+    hull = hull[sampled_rows(len(hull), MAX_HULL, seed)]
+    numbers: dict[str, Any] = {"train_commands_looked_at": len(hull)}
     for subset in SUBSETS:
         norms = np.linalg.norm(samples[subset].commands, axis=1)
         numbers[subset] = {"norm_min": float(norms.min()), "norm_max": float(norms.max())}

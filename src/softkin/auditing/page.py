@@ -123,7 +123,7 @@ def _shift(support: Mapping[str, Any], shift: Mapping[str, Any]) -> str:
             ]
         rows.append(row + [""] * (5 - len(row)))
     return (
-        f"The hull is that of the {support['hull_commands']} outermost distinct train commands. The AUC is that of a "
+        f"The hull is that of {support['train_commands_looked_at']} distinct train commands. The AUC is that of a "
         "classifier told to tell the subset's commands from those of train: 0.5 is chance, 1 never fails. KS is the "
         "largest gap between two cumulative distributions (0 to 1), here of the column that differs most; every "
         f"column's, and its Wasserstein distance, is in the JSON file. At most {shift['rows_classified_at_most']} rows "
