@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+from softkin.findings import counted
 from softkin.interface import SUBSETS, TRAIN
 
 OTHERS = [subset for subset in SUBSETS if subset != TRAIN]
@@ -37,7 +38,7 @@ def page(card: Mapping[str, Any]) -> str:
         _nearness(checks["near_copies"]),
         "## How far they lie from train",
         _shift(checks["extrapolation_support"], checks["subset_shift"]),
-        "## How regular the robot is",
+        "## How smooth the robot is",
         _regularity(checks["gross_outliers"]),
     ]
     return "\n\n".join(parts) + "\n"
@@ -48,7 +49,7 @@ def _finding(finding: Mapping[str, Any]) -> str:
     for subset, count in finding["n_rows"].items():
         shown = ", ".join(map(str, finding["rows"][subset][:MAX_ROWS_SHOWN]))
         more = ", ..." if count > MAX_ROWS_SHOWN else ""
-        text += f"\n  - {subset}, {count} rows (counted from 0): {shown}{more}"
+        text += f"\n  - {subset}, {counted(count, 'row')} (numbered from 0): {shown}{more}"
     return text
 
 

@@ -45,7 +45,8 @@ def test_what_was_found_stands_in_card_and_page(robot: dict[str, Samples], chang
     for finding in card["findings"]:
         assert finding["sentence"] in readable
         assert finding["consequence"] in readable
-    assert "test, 20 rows (counted from 0): 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, ..." in readable
+    assert "test, 20 rows (numbered from 0): 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, ..." in readable
+    assert "train, 1 row (numbered from 0): 300" in readable
     assert "Dropped from train before, by `clean`: 3 stuck rows, 0 duplicate rows." in readable
 
 
