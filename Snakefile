@@ -1,7 +1,8 @@
 # softkin: from published data to a calibrated forward kinematics. `snakemake --cores 2` is all it takes.
 #
-#     retrieve -> prepare -> tune -> fit -> predict -> score -> tables
-#                        \-> quantiles -\-> intervals -> score /  \-> track (MLflow)
+#     retrieve -> prepare -> tune -> fit -> predict -> score -> tables -> report
+#                    |         |       \-> refit -\-> intervals -> score, figures -> track (MLflow)
+#                    \-> audit \-> tune and fit quantiles -/
 from pathlib import Path
 
 from snakemake.utils import min_version
@@ -16,6 +17,7 @@ configfile: Path(workflow.basedir) / "config" / "datasets.yaml"
 include: "workflow/rules/common.smk"
 include: "workflow/rules/retrieve.smk"
 include: "workflow/rules/prepare.smk"
+include: "workflow/rules/audit.smk"
 include: "workflow/rules/tune.smk"
 include: "workflow/rules/fit.smk"
 include: "workflow/rules/predict.smk"

@@ -21,9 +21,19 @@ MODULES = sorted(path.relative_to(SOURCE) for path in SOURCE.rglob("*.py"))
 #: Lower floors first; a module imports from floors below it, and within its own folder only where listed here.
 FLOORS = [
     {"interface", "__init__"},
-    {"files", "job", "conformal", "bounds", "folds"},
-    {"configuration", "datasets", "estimators", "models", "quantile_models", "intervals", "regions", "metrics"},
-    {"fitting", "quantiles", "tables", "new_robot"},
+    {"files", "job", "conformal", "bounds", "folds", "findings", "rows"},
+    {
+        "configuration",
+        "datasets",
+        "estimators",
+        "models",
+        "quantile_models",
+        "intervals",
+        "regions",
+        "metrics",
+        "smooth_fit",
+    },
+    {"fitting", "quantiles", "tables", "new_robot", "auditing"},
     {"scoring", "tuning", "tracking", "refitting", "evidence"},
     {"calibrating", "choosing_intervals", "tuning_quantiles", "scoring_regions"},
     {"scoring_intervals", "conditional_coverage", "figures", "calibrated_model"},
@@ -34,6 +44,7 @@ GATHERERS = {"datasets/__init__.py", "datasets/preparing.py", "models/__init__.p
 GATHERERS |= {"datasets/table_file.py"}
 GATHERERS |= {"intervals/__init__.py", "quantile_models/__init__.py", "tables/published_intervals.py"}
 GATHERERS |= {"regions/__init__.py", "regions/ellipsoids.py"}
+GATHERERS |= {"auditing/__init__.py", "auditing/data_card.py", "auditing/cleaning.py"}
 #: All figures have one style.
 GATHERERS |= {f"figures/{name}.py" for name in ("__init__", "drawing", "intervals", "conditional_coverage")}
 GATHERERS |= {"tables/headline.py", "tracking/__init__.py", "tracking/models.py", "tracking/intervals.py"}

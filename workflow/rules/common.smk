@@ -79,6 +79,16 @@ def reader_code(wildcards):
     return reader_files(source(wildcards)["format"])
 
 
+def cleaning_code(wildcards):
+    """The files that decide which rows of train are dropped, where the entry asks for it."""
+    names = ("cleaning", "duplicate_rows", "stuck_poses")
+    return (
+        package(*(f"auditing/{name}.py" for name in names))
+        if source(wildcards).get("clean")
+        else []
+    )
+
+
 def every_run(models=tuple(config["models"])):
     """[model, preset] of each run that one dataset gets."""
     return [[model, preset] for model in models for preset in config["presets"]]
@@ -205,7 +215,7 @@ def final_output():
         *expand(
             "results/{dataset}/{name}",
             dataset=config["datasets"],
-            name=["figures", "calibrated_model.joblib"],
+            name=["data_card.md", "figures", "calibrated_model.joblib"],
         ),
         *expand("results/{dataset}/mlflow_runs.json", dataset=config["datasets"]),
     ]

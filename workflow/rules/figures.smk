@@ -4,6 +4,7 @@ rule figures:
     input:
         table="results/{dataset}/table.parquet",
         description="results/{dataset}/dataset.json",
+        data_card="results/{dataset}/data_card.json",
         intervals=expand(
             "results/{{dataset}}/intervals/{method}.parquet",
             method=config["interval_methods"],

@@ -4,6 +4,7 @@ rule prepare:
     input:
         raw="results/{dataset}/raw",
         code=package("datasets/preparing.py", "datasets/table.py"),
+        cleaning=cleaning_code,
         reader_code=reader_code,
     output:
         table="results/{dataset}/table.parquet",

@@ -11,9 +11,10 @@ from softkin.job import job
 
 given, methods, dataset = snakemake.input, snakemake.params.methods, snakemake.wildcards.dataset
 with job(snakemake.log[0], f"figures {dataset}"):
+    leak = " (LEAK: test rows stand in train)" if read_json(given.data_card)["is_leaking"] else ""
     results = DatasetResults(
         dataset=dataset,
-        title=read_json(given.description)["title"],
+        title=read_json(given.description)["title"] + leak,
         table=Path(given.table),
         intervals={method: Path(path) for method, path in zip(methods, given.intervals, strict=True)},
         choice=Path(given.choice),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -30,10 +30,12 @@ def prepare(
     table: str | Path,
     description: str | Path,
     max_rows: int | None = None,
+    clean: Callable[[Mapping[str, Samples]], tuple[dict[str, Samples], dict[str, int]]] | None = None,
 ) -> None:
     """Read `raw` as its entry `source` says, check it, write the `table` (Parquet, mm) and the `description` (JSON).
 
-    `max_rows` keeps the first rows of each subset only (for trying the pipeline out); None keeps all.
+    `max_rows` keeps the first rows of each subset only (for trying the pipeline out); None keeps all. `clean`, if
+    given, drops rows of `train` and counts them; the description says how many.
 
     Raises:
         SoftkinError: the file is not what its entry in config/datasets.yaml says.
@@ -53,6 +55,10 @@ def prepare(
         subset: Samples(rows.commands[:max_rows], rows.positions[:max_rows] * factor)
         for subset, rows in samples.items()
     }
+    removed = None
+    if clean is not None:
+        samples, removed = clean(samples)
+        logger.info("cleaned train: %s", ", ".join(f"{count} {what}" for what, count in removed.items()))
     widest = np.ptp(samples[TRAIN].positions, axis=0).max()
     if not PLAUSIBLE_MM[0] <= widest <= PLAUSIBLE_MM[1]:
         logger.warning(
@@ -75,7 +81,8 @@ def prepare(
             "n_commands": n_commands,
             "n_markers": n_markers,
             "rows": {subset: len(rows) for subset, rows in samples.items()},
-            "is_cut": any(len(rows) < sizes[subset] for subset, rows in samples.items()),
+            "removed_from_train": removed,
+            "is_cut": max_rows is not None and any(size > max_rows for size in sizes.values()),
             "content_sha256": {subset: content_hash(rows) for subset, rows in samples.items()},
             "constant_coordinates": [name for name, moves in zip(names, moving, strict=True) if not moves],
         },

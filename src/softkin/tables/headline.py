@@ -11,9 +11,13 @@ from softkin.tables.paper_layout import format_number
 
 
 def headline(
-    selected: pd.DataFrame | None, point: pd.DataFrame, intervals: pd.DataFrame, sentences: Sequence[str]
+    selected: pd.DataFrame | None,
+    point: pd.DataFrame,
+    intervals: pd.DataFrame,
+    sentences: Sequence[str],
+    leaking: Sequence[str] = (),
 ) -> str:
-    """Plain text, under 80 columns."""
+    """Plain text, under 80 columns; `leaking` names the datasets whose test rows stand in train."""
     lines = ["", "softkin: forward kinematics, mean error of a marker position (mm)", ""]
     if selected is not None:
         lines.append(f"  {'dataset':<20}{'model':<8}{'test':>10}{'95 %':>10}{'extrapolation':>16}")
@@ -27,6 +31,7 @@ def headline(
             lines.append(f"  {row.dataset:<20}{row.model:<8}{texts[0]:>10}{texts[1]:>10}{texts[2]:>16}")
             if numbers[0] > numbers[1]:
                 remarks.append(f"  {row.dataset}: a few gross misses set the mean, which exceeds the 95th percentile.")
+        remarks += [f"  {dataset}: LEAK. Its test rows stand in train, see its data card." for dataset in leaking]
         lines += ["", "  The model is chosen by cross-validation on `train` alone.", *remarks]
     lines += _how_sure(intervals)
     lines += [f"  {sentence}" for sentence in sentences]

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ import yaml
 from softkin.datasets.preparing import MM_PER_UNIT, prepare
 from softkin.datasets.table import read_subset
 from softkin.files import read_json
-from softkin.interface import SUBSETS, SoftkinError
+from softkin.interface import SUBSETS, Samples, SoftkinError
 from tests.conftest import HOUSE, four_subsets, published_json
 
 SIZES = {"train": 30, "validation": 5, "test": 6, "extrapolation": 7}
@@ -104,3 +105,19 @@ def test_published_subset_sizes_are_those_of_table_2(dataset: str, tmp_path: Pat
         assert rows.positions.shape == (row.n_rows, row.n_coordinates)
         assert about["rows"][row.subset] == row.n_rows
     assert about["constant_coordinates"] == (["m1_x", "m1_y", "m1_z"] if dataset == "abaqus" else [])
+
+
+def test_rows_that_are_cleaned_away_are_counted(tmp_path: Path) -> None:
+    """`train` only, and only where it was asked for."""
+
+    def without_the_first_two(samples: Mapping[str, Samples]) -> tuple[dict[str, Samples], dict[str, int]]:
+        train = samples["train"]
+        kept = Samples(train.commands[2:], train.positions[2:])
+        return {**samples, "train": kept}, {"stuck_rows": 2, "duplicate_rows": 0}
+
+    assert run(tmp_path, entry())[1]["removed_from_train"] is None
+    table, about = run(tmp_path, entry(), clean=without_the_first_two)
+    assert about["removed_from_train"] == {"stuck_rows": 2, "duplicate_rows": 0}
+    assert about["rows"] == SIZES | {"train": 28}
+    assert not about["is_cut"]
+    assert len(read_subset(table, "train")) == 28
