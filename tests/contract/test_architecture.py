@@ -21,7 +21,7 @@ MODULES = sorted(path.relative_to(SOURCE) for path in SOURCE.rglob("*.py"))
 #: Lower floors first; a module imports from floors below it, and within its own folder only where listed here.
 FLOORS = [
     {"interface", "__init__"},
-    {"files", "job", "conformal"},
+    {"files", "job", "conformal", "standins"},
     {"configuration", "datasets", "estimators", "models", "quantile_models", "intervals", "metrics"},
     {"fitting", "quantiles", "tables"},
     {"scoring", "tuning", "tracking", "calibrating"},
@@ -30,6 +30,11 @@ FLOORS = [
 #: A folder's __init__ is its registry, preparing is the one call of its stage, build gathers the tables.
 GATHERERS = {"datasets/__init__.py", "datasets/preparing.py", "models/__init__.py", "tables/build.py"}
 GATHERERS |= {"intervals/__init__.py", "quantile_models/__init__.py", "tables/published_intervals.py"}
+#: Simulated robots stand on one rod.
+GATHERERS |= {f"standins/{path.name}" for path in (SOURCE / "standins").glob("*.py")} - {
+    "standins/rod.py",
+    "standins/robot.py",
+}
 GATHERERS |= {"tables/headline.py", "tracking/__init__.py", "tracking/models.py", "tracking/intervals.py"}
 
 
