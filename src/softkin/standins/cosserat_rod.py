@@ -22,7 +22,7 @@ from softkin.standins.rod import Loads, Rod, Shape
 
 logger = logging.getLogger("softkin")
 
-#: The largest tip moment left over, as a share of bending stiffness / length.
+#: The largest tip moment left over, as a share of (smallest) bending stiffness / length.
 TOLERANCE = 1e-9
 NEWTON_STEPS = 12
 #: Rows that are not solved from the unloaded rod in one step are loaded in so many steps, then in more.
@@ -49,7 +49,7 @@ def solve(
     shapes = []
     for start in range(0, len(loads), BATCH):
         batch = loads.rows(slice(start, start + BATCH))
-        states = np.stack(_equilibria(rod, batch, quaternion, n_elements, start))
+        states = _equilibria(rod, batch, quaternion, n_elements, start)
         shapes.append(np.moveaxis(states, -1, 0))  # (n_rows, n_stations, n_state)
         if len(loads) > BATCH:
             logger.info("%s: %d of %d rows simulated", label, min(start + BATCH, len(loads)), len(loads))
@@ -58,26 +58,22 @@ def solve(
     return Shape(stations[..., R], quaternions, stations[..., N], stations[..., M])
 
 
-def _equilibria(rod: Rod, loads: Loads, quaternion: Array, n_elements: int, first_row: int) -> list[Array]:
-    """States (n_state, n_rows) at the stations, from the base to the tip."""
-    h = rod.length / n_elements
-    moments = np.zeros((3, len(loads)))
+def _equilibria(rod: Rod, loads: Loads, quaternion: Array, n_elements: int, first_row: int) -> Array:
+    """States (n_stations, n_state, n_rows), from the base to the tip."""
+    solution = np.empty((n_elements + 1, 13 + len(rod.tendons), len(loads)))
     left = np.arange(len(loads))
     for n_steps in LOAD_STEPS:
         rows, guess = left, np.zeros((3, len(left)))
         for step in range(1, n_steps + 1):
             guess, solved = _newton(rod, loads.rows(rows).scaled(step / n_steps), quaternion, guess, n_elements)
             rows, guess = rows[solved], guess[:, solved]
-        states = march(rod, loads.rows(rows), base_states(rod, loads.rows(rows), quaternion, guess), h, n_elements)
-        stable = _stable(rod, loads.rows(rows), states)
-        moments[:, rows[stable]] = guess[:, stable]
+        here = loads.rows(rows)
+        states = march(rod, here, base_states(rod, here, quaternion, guess), rod.length / n_elements, n_elements)
+        stable = _stable(rod, here, states)
+        solution[..., rows[stable]] = np.stack(states)[..., stable]
         left = np.setdiff1d(left, rows[stable])
         if not left.size:
-            return (
-                states
-                if n_steps == 1
-                else march(rod, loads, base_states(rod, loads, quaternion, moments), h, n_elements)
-            )
+            return solution
     row = loads.rows(left[:1])
     carried = ", ".join(f"{name} {getattr(row, name)[0].round(6).tolist()}" for name in Loads.__slots__)
     raise SoftkinError(
@@ -106,7 +102,7 @@ def _newton(
             miss = shot[:, 0]
             slopes = np.moveaxis(shot[:, 1:] - miss[:, None], -1, 0) / (NUDGE * scale)  # (n, of tip, by base)
             determinants = np.linalg.det(slopes)
-        hit = np.abs(miss).max(axis=0) <= TOLERANCE * scale
+        hit = np.abs(miss).max(axis=0) <= TOLERANCE * min(rod.bend_stiffness) / rod.length
         solved[active[hit]] = True
         go_on = ~hit & np.isfinite(determinants) & (determinants != 0)
         active = active[go_on]
