@@ -29,7 +29,7 @@ def simulate(name: str, *, n_rows: Mapping[str, int] | int, seed: int) -> dict[s
     if set(sizes) != set(SUBSETS) or min(sizes.values()) < 1:
         raise SoftkinError(
             f"stand-in '{name}', rows {sizes}: every subset needs a row\n"
-            f"  mend: give {', '.join(SUBSETS)} one row or more each, or a total of 15 or more"
+            f"  mend: give {', '.join(SUBSETS)} one row or more each, or a total of 8 or more"
         )
     drawing, measuring, splitting = np.random.default_rng(seed).spawn(3)
     commands = robot.draw(sum(sizes.values()), drawing)

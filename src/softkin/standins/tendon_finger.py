@@ -1,9 +1,10 @@
 """A soft finger with two antagonistic pairs of tendons and a marker at its tip: ideal, and as on a bench.
 
-Of the size, command ranges and units of ELASTICA and FINGER. The ideal finger takes the tension of each pair in N:
-positive pulls the tendon towards +x (first command) or +y (second), negative its antagonist. The finger on the bench
-takes motor counts, turned like FINGER's axes: its first command bends it towards +y, its second towards -x. There
-tendons rub in their channels, the drives have backlash, and a motion capture system measures the tip.
+Of the size, command ranges and units of ELASTICA and FINGER. Both tendons of a pair are under tension at rest; a
+command shifts tension from one to the other, so that none goes slack. The ideal finger takes that difference in N:
+positive bends it towards +x (first command) or +y (second). The finger on the bench takes motor counts, turned like
+FINGER's axes: its first command bends it towards +y, its second towards -x. There tendons rub in their channels, the
+drives have backlash, and a motion capture system measures the tip.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ RADIUS, TENDON_OFFSET = 10.0, 8.0
 TENDONS = ((TENDON_OFFSET, 0.0), (0.0, TENDON_OFFSET), (-TENDON_OFFSET, 0.0), (0.0, -TENDON_OFFSET))
 YOUNG_MODULUS = 7.0  # MPa: a firm casting urethane
 DENSITY = 1.1e-3  # g/mm3
+SPINE = 20.0  # a fabric spine on the centreline: it bends freely, and stretches so much less than the urethane
 N_ELEMENTS = 24
 LARGEST_TENSION = 40.0  # N
 
@@ -32,14 +34,20 @@ BACKLASH = 30.0
 FRICTION = 0.12
 NOISE_MM = 0.15  # standard deviation per coordinate: a motion capture system at close range
 
-_AREA, _SECOND_MOMENT = disc(RADIUS)
-ROD = Rod(120.0, *section(YOUNG_MODULUS, _AREA, _SECOND_MOMENT), mass_per_length=DENSITY * _AREA, tendons=TENDONS)
+
+def _rod() -> Rod:
+    area, second_moment = disc(RADIUS)
+    (shear, _, stretch), bend = section(YOUNG_MODULUS, area, second_moment)
+    return Rod(120.0, (shear, shear, SPINE * stretch), bend, mass_per_length=DENSITY * area, tendons=TENDONS)
+
+
+ROD = _rod()
 BENCH_ROD = replace(ROD, length=127.0, tendons=tuple((-y, x) for x, y in TENDONS), friction=FRICTION)
 
 
-def _tips(rod: Rod, pulls: Array, slides: Array | float, label: str) -> Array:
-    """Tip positions (n_rows, 3) under signed tensions `pulls` (n_rows, 2) in N, standing on the base."""
-    tensions = np.maximum(np.hstack([pulls, -pulls]), 0.0)
+def _tips(rod: Rod, pulls: Array, largest: float, slides: Array | float, label: str) -> Array:
+    """Tips (n_rows, 3) in mm under differences of tension `pulls` (n_rows, 2) in N, at most `largest`; standing up."""
+    tensions = (largest + np.hstack([pulls, -pulls])) / 2
     weight = (0.0, 0.0, -rod.weight_per_length)
     loaded = loads(rod, len(pulls), distributed_force=weight, tensions=tensions, slides=slides)
     return solve(rod, loaded, n_elements=N_ELEMENTS, label=label).positions[:, -1]
@@ -50,7 +58,7 @@ def _draw(n_rows: int, rng: np.random.Generator) -> Array:
 
 
 def _poses(commands: Array, _: np.random.Generator) -> Array:
-    return _tips(ROD, commands, 0.0, SPEC.name)
+    return _tips(ROD, commands, LARGEST_TENSION, 0.0, SPEC.name)
 
 
 def play(commands: Array, half_width: float) -> tuple[Array, Array]:
@@ -71,7 +79,8 @@ def play(commands: Array, half_width: float) -> tuple[Array, Array]:
 def bench_tips(commands: Array) -> Array:
     """Tips (n_rows, 3) in mm of the finger on the bench, before measurement; commands in counts, in their order."""
     counts, stops = play(commands, BACKLASH)
-    return _tips(BENCH_ROD, TENSION_PER_COUNT * counts, np.hstack([stops, -stops]), FRICTIONAL.name)
+    pulls, largest = TENSION_PER_COUNT * counts, TENSION_PER_COUNT * LARGEST_COUNT
+    return _tips(BENCH_ROD, pulls, largest, np.hstack([stops, -stops]), FRICTIONAL.name)
 
 
 def _bench_poses(commands: Array, rng: np.random.Generator) -> Array:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import math
 from dataclasses import replace
 
@@ -227,11 +228,14 @@ def test_forces_and_moments_balance_at_the_base() -> None:
     np.testing.assert_allclose(np.linalg.norm(shape.quaternions, axis=-1), 1, rtol=1e-14)
 
 
-def test_rows_do_not_depend_on_each_other() -> None:
+def test_rows_do_not_depend_on_each_other(monkeypatch: pytest.MonkeyPatch) -> None:
+    progress: list[str] = []
+    monkeypatch.setattr(logging.getLogger("softkin"), "info", lambda text, *told: progress.append(text % told))
     rng = np.random.default_rng(0)
     n_rows = BATCH + 3
     every = loads(FINGER, n_rows, tip_force=rng.normal(0, 0.2, (n_rows, 3)), tensions=rng.uniform(0, 30, (n_rows, 4)))
-    together = solve(FINGER, every, n_elements=8).positions
+    together = solve(FINGER, every, n_elements=8, label="finger").positions
+    assert progress == [f"finger: {BATCH} of {n_rows} rows simulated", f"finger: {n_rows} of {n_rows} rows simulated"]
     for row in (0, BATCH - 1, BATCH, n_rows - 1):
         alone = solve(FINGER, every.rows(np.array([row])), n_elements=8).positions[0]
         np.testing.assert_allclose(together[row], alone, atol=1e-6)
