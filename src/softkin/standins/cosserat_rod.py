@@ -135,6 +135,7 @@ def _stable(rod: Rod, loads: Loads, states: list[Array]) -> NDArray[np.bool_]:
         turns = own_scalar * vector[:, 1:] - scalar[1:] * own - cross(vector[:, 1:], own)
         fields.append(np.moveaxis(turns, -1, 0) * (2 / NUDGE))
     field = np.stack(fields, axis=1)  # (n, n_stations, global axis, turned tip)
+    # A sign that changes is a conjugate point; a field that is singular at a station cannot be inverted below.
     stable = (np.linalg.det(field) > 0).all(axis=1)
     changes = field[stable, 1:] @ np.linalg.inv(field[stable, :-1])
     stable[stable] = (np.linalg.eigvals(changes).real > 0).all(axis=(1, 2))

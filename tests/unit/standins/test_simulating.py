@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import yaml
+from scipy.stats import ks_2samp
 
 from softkin.interface import EXTRAPOLATION, SUBSETS, Samples, SoftkinError, informative_coordinates
 from softkin.standins import STANDINS
-from softkin.standins.simulating import simulate, subset_sizes
+from softkin.standins.simulating import simulate, split, subset_sizes
 from tests.conftest import HOUSE
 
 SIZES = {"train": 40, "validation": 7, "test": 8, "extrapolation": 20}
@@ -52,6 +53,20 @@ def test_extrapolation_is_the_outer_shell(simulated: dict[str, Samples]) -> None
     norms = {subset: np.linalg.norm(rows.commands, axis=1) for subset, rows in simulated.items()}
     inner = max(norms[subset].max() for subset in SUBSETS if subset != EXTRAPOLATION)
     assert norms[EXTRAPOLATION].min() >= inner
+
+
+def test_the_inner_rows_are_dealt_at_random() -> None:
+    """Train and test come from the same distribution, in norm and in the order of sending."""
+    commands = np.random.default_rng(0).uniform(-1, 1, (3000, 2))
+    rows = split(commands, subset_sizes(3000), np.random.default_rng(1))
+    assert sorted(np.concatenate(list(rows.values())).tolist()) == list(range(3000))
+    norms = np.linalg.norm(commands, axis=1)
+    for held_out in ("validation", "test"):
+        assert ks_2samp(norms[rows["train"]], norms[rows[held_out]]).pvalue > 1e-6
+        assert ks_2samp(rows["train"], rows[held_out]).pvalue > 1e-6
+    # The first rows of a subset stand for all of it: `max_rows_per_subset` keeps those.
+    first, last = np.array_split(rows["extrapolation"], 2)
+    assert ks_2samp(norms[first], norms[last]).pvalue > 1e-6
 
 
 def test_only_the_base_of_the_arm_stands_still(robot: str, simulated: dict[str, Samples]) -> None:
