@@ -4,7 +4,7 @@ CORES ?= 2
 BIN := .venv/bin
 export MLFLOW_DISABLE_TELEMETRY := true
 
-.PHONY: run unlock new-robot test test-run lint ui store campaigns benchmark coverage environment clean
+.PHONY: run unlock new-robot test test-run lint ui store campaigns benchmark coverage standins environment clean
 
 run: .venv/installed
 	$(BIN)/snakemake --cores $(CORES)
@@ -48,6 +48,10 @@ benchmark: .venv/installed
 # Whether intervals cover what they say, over random re-splits of a finished run.
 coverage: .venv/installed
 	$(BIN)/python benchmarks/coverage.py
+
+# How long the stand-ins of all datasets take to simulate.
+standins: .venv/installed
+	$(BIN)/python benchmarks/standins.py
 
 # Pin every dependency anew.
 environment: .venv/installed

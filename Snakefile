@@ -35,6 +35,15 @@ rule all:
         final_output(),
 
 
+onstart:
+    warn_of_stand_ins()
+
+
 onsuccess:
     if Path(HEADLINE).exists():  # a run for a single file has none
         print(Path(HEADLINE).read_text(encoding="utf-8"))
+    warn_of_stand_ins()
+
+
+onerror:
+    warn_of_stand_ins()

@@ -21,7 +21,7 @@ MODULES = sorted(path.relative_to(SOURCE) for path in SOURCE.rglob("*.py"))
 #: Lower floors first; a module imports from floors below it, and within its own folder only where listed here.
 FLOORS = [
     {"interface", "__init__"},
-    {"files", "job", "conformal", "bounds", "folds", "findings", "rows"},
+    {"files", "job", "conformal", "bounds", "folds", "findings", "rows", "standins"},
     {
         "configuration",
         "datasets",
@@ -45,6 +45,11 @@ GATHERERS |= {"datasets/table_file.py"}
 GATHERERS |= {"intervals/__init__.py", "quantile_models/__init__.py", "tables/published_intervals.py"}
 GATHERERS |= {"regions/__init__.py", "regions/ellipsoids.py"}
 GATHERERS |= {"auditing/__init__.py", "auditing/data_card.py", "auditing/cleaning.py"}
+#: Simulated robots stand on one rod.
+GATHERERS |= {f"standins/{path.name}" for path in (SOURCE / "standins").glob("*.py")} - {
+    "standins/rod.py",
+    "standins/robot.py",
+}
 #: All figures have one style.
 GATHERERS |= {f"figures/{name}.py" for name in ("__init__", "drawing", "intervals", "conditional_coverage")}
 GATHERERS |= {"tables/headline.py", "tracking/__init__.py", "tracking/models.py", "tracking/intervals.py"}

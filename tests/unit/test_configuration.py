@@ -14,6 +14,7 @@ from softkin.intervals import INTERVAL_METHODS
 from softkin.models import MODELS
 from softkin.quantile_models import QUANTILE_MODELS
 from softkin.regions import REGION_METHODS
+from softkin.standins import STANDINS
 from tests.conftest import HOUSE
 
 SCHEMA = HOUSE / "workflow" / "schemas" / "config.schema.yaml"
@@ -25,7 +26,7 @@ for name in ("config", "datasets"):
 def check(config: dict[str, Any]) -> None:
     registries: dict[str, Any] = {"models": MODELS, "formats": READERS}
     registries |= {"interval_methods": INTERVAL_METHODS, "quantile_models": QUANTILE_MODELS}
-    registries |= {"regions": REGION_METHODS}
+    registries |= {"regions": REGION_METHODS, "standins": STANDINS}
     check_configuration(config, SCHEMA, registries)
 
 
@@ -52,6 +53,8 @@ def test_the_shipped_configuration_is_good() -> None:
         (lambda c: c.update(quantile_models=["xbg"]), ["did you mean 'xgb'?"]),
         (lambda c: c.update(confidence_levels=[0.9, 0.8]), ["not ascending", "[0.8, 0.9]"]),
         (lambda c: c.update(confidence_levels=[90]), ["confidence_levels.0", "90"]),
+        (lambda c: c.update(when_unreachable="simulat"), ["did you mean 'simulate'?"]),
+        (lambda c: c["sources"]["finger"]["standin"].update(robot="tendon_fingr"), ["did you mean 'tendon_finger'?"]),
         (lambda c: c["sources"]["finger"].update(sha256="abc"), ["sources.finger.sha256"]),
         (lambda c: c["sources"]["finger"].update(position_unit="inch"), ["sources.finger.position_unit", "mm"]),
         (lambda c: c["sources"]["finger"].update(format="kin_json"), ["did you mean 'kinn_json'?"]),

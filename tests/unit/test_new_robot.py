@@ -18,6 +18,7 @@ from softkin.models import MODELS
 from softkin.new_robot import main
 from softkin.quantile_models import QUANTILE_MODELS
 from softkin.regions import REGION_METHODS
+from softkin.standins import STANDINS
 from tests.conftest import HOUSE, bending_arm
 
 SIZE = 200
@@ -90,12 +91,13 @@ def test_write_appends_and_keeps_every_letter_before(house: Path, capsys: pytest
     assert after.startswith(before)
     assert yaml.safe_load(after)["sources"] == yaml.safe_load(before)["sources"] | {"my_arm": entry}
     config = yaml.safe_load((house / "config" / "config.yaml").read_text()) | yaml.safe_load(after)
-    registries = {"models": MODELS, "formats": READERS, "interval_methods": INTERVAL_METHODS}
+    registries: dict[str, Any] = {"models": MODELS, "formats": READERS, "interval_methods": INTERVAL_METHODS}
+    registries |= {"quantile_models": QUANTILE_MODELS, "regions": REGION_METHODS, "standins": STANDINS}
     schema = HOUSE / "workflow" / "schemas" / "config.schema.yaml"
     check_configuration(
         config | {"datasets": ["my_arm"]},
         schema,
-        registries | {"quantile_models": QUANTILE_MODELS, "regions": REGION_METHODS},
+        registries,
     )
 
 

@@ -18,7 +18,14 @@ from softkin.interface import SUBSETS, SoftkinError
 from softkin.tracking import Campaign, create_store, log_dataset, log_intervals
 from softkin.tracking.store import CONTENT, KEY, PARENT
 
-ABOUT = {"dataset": "finger", "title": "FINGER", "sha256": "ab" * 32, "n_commands": 2, "n_markers": 1}
+ABOUT = {
+    "dataset": "finger",
+    "title": "FINGER",
+    "sha256": "ab" * 32,
+    "origin": "published",
+    "n_commands": 2,
+    "n_markers": 1,
+}
 
 
 @pytest.fixture

@@ -6,13 +6,14 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from softkin.datasets import published_json, table_file
+from softkin.datasets import published_json, simulated, table_file
 from softkin.interface import Samples
 
 #: Source format (key `format` of a dataset's entry) -> reader(path, dataset=, source=), `source` the whole entry.
 READERS: dict[str, Callable[..., dict[str, Samples]]] = {
     "kinn_json": published_json.read,
     "table_file": table_file.read,
+    "simulated": simulated.read,
 }
 
 

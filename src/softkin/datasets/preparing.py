@@ -77,6 +77,7 @@ def prepare(
         {
             "dataset": dataset,
             "title": source["title"],
+            "origin": "stand-in" if "robot" in source else "published" if "urls" in source else "own",
             "sha256": source.get("sha256") or pooch.file_hash(str(raw), alg="sha256"),
             "n_commands": n_commands,
             "n_markers": n_markers,

@@ -23,6 +23,11 @@ MAY_BE = {
     "scp_mapie": ("scp_mapie", "cv_plus", "jackknife_plus_ab"),
     "scp_crepes": ("scp_crepes", "cps"),
 }
+COLUMNS = (
+    *("dataset", "interval_method", "metric", "printed", "honest_value", "honest_verdict", "nearest_value"),
+    *("nearest_verdict", "nearest_coordinate", "nearest_model", "nearest_preset", "nearest_interval_method"),
+    *("nearest_confidence_level", "explanation"),
+)
 NEAREST = ("coordinate", "model", "preset", "interval_method", "confidence_level")
 
 
@@ -68,7 +73,7 @@ def compare_intervals(published: pd.DataFrame, metrics: pd.DataFrame, point: pd.
                     "explanation": _explanation(printed, ours, metric, nearest, point),
                 }
             )
-    return pd.DataFrame(rows)
+    return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
 def _nearest(rows: pd.DataFrame, printed: dict[str, str]) -> pd.Series:

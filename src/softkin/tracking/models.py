@@ -30,8 +30,8 @@ def log_dataset(
 ) -> dict[str, str]:
     """Log the runs of one dataset, each (model, preset) a child of the campaign's run; return key -> run id.
 
-    `data_card` has the findings of the audit. `runs` gives for each (model, preset) its files: predictions, fit, and for
-    a tuned model parameters and trials.
+    `data_card` has the findings of the audit. `runs` gives for each (model, preset) its files: predictions, fit, and
+    for a tuned model parameters and trials.
 
     Raises:
         SoftkinError: the store is gone.
@@ -102,6 +102,7 @@ def _common_tags(campaign: Campaign, about: Mapping[str, Any]) -> dict[str, str]
         "campaign": campaign.name,
         "dataset": about["dataset"],
         "data_sha256": about["sha256"],
+        "origin": about["origin"],
         "seed": str(campaign.seed),
         "leak": str(any(finding["severity"] == LEAK for finding in about["findings"])).lower(),
     }
