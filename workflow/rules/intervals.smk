@@ -31,7 +31,12 @@ rule intervals:
         unpack(stored_outputs),
         table="results/{dataset}/table.parquet",
         parameters=run_files("parameters.json", presets=[TUNED]),
-        code=package(*EVIDENCE_CODE, "calibrating.py", "choosing_intervals.py"),
+        code=package(
+            *EVIDENCE_CODE,
+            "calibrating.py",
+            "choosing_intervals.py",
+            "metrics/interval.py",
+        ),
         interval_code=interval_code(),
     output:
         intervals=expand(
