@@ -37,6 +37,9 @@ def _unknown_names(config: Mapping[str, Any], registries: Mapping[str, Iterable[
         ("interval_methods", "known method", name, registries["interval_methods"])
         for name in config["interval_methods"]
     ]
+    names += [
+        ("max_fit_rows", "model of the registry", model, registries["models"]) for model in config["max_fit_rows"]
+    ]
     names += [("regions", "known region", name, registries["regions"]) for name in config["regions"]]
     names += [
         ("quantile_models", "known learner", name, registries["quantile_models"]) for name in config["quantile_models"]

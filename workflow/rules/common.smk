@@ -76,6 +76,11 @@ def model_code(wildcards):
     return source_files(wildcards.model)
 
 
+def max_fit_rows(wildcards):
+    """How many rows of train a model is fitted on at most; None for one that takes any number."""
+    return config["max_fit_rows"].get(wildcards.model)
+
+
 def source(wildcards):
     """The dataset's entry in config/datasets.yaml."""
     return config["sources"][wildcards.dataset]
