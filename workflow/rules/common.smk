@@ -7,7 +7,7 @@ import softkin
 from softkin.configuration import check_configuration
 from softkin.datasets import READERS
 from softkin.figures import FIGURES
-from softkin.interface import PRESETS, SoftkinError, TUNED
+from softkin.interface import PAPER, PRESETS, SoftkinError, TUNED
 from softkin.intervals import INTERVAL_METHODS
 from softkin.models import MODELS, source_files
 from softkin.quantile_models import QUANTILE_MODELS
@@ -33,6 +33,7 @@ PUBLISHED = Path(workflow.basedir) / "config" / "published"
 # For `--software-deployment-method conda`; unused otherwise.
 SOFTWARE = "../envs/softkin.yaml"
 HEADLINE = "results/tables/headline.txt"
+REPORT = "results/report.html"
 TABLES = [
     "point_metrics.csv",
     "marker_errors.csv",
@@ -187,6 +188,7 @@ def every_dataset_and_model():
 def final_output():
     """All that a complete campaign leaves."""
     return [
+        REPORT,
         HEADLINE,
         "results/tables/paper_tables.md",
         "results/tables/paper_tables.tex",
