@@ -122,7 +122,8 @@ def choice_grid(choice: pd.DataFrame, models: Mapping[str, str], methods: Mappin
     level = choice["confidence_level"].iloc[0]
     sentence = (
         f"The {share_text(level, digits=0)} intervals that each robot could have had, and the one it got: "
-        "that of the lowest Winkler score in a cross-validation inside the validation rows. The test rows, looked at afterwards, say what the "
+        "that of the lowest Winkler score in a cross-validation inside the validation rows. The test rows, looked at "
+        "afterwards, say what the "
         "choice was worth; a ratio under 1 is better than the paper's recipe."
     )
     columns = [ROBOT, Column("Method"), Column("Around"), Column("Winkler when choosing (mm)", is_number=True)]
