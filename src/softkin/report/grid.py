@@ -16,15 +16,14 @@ NOTHING = "–"
 @dataclass(frozen=True, slots=True)
 class Column:
     """`is_number` aligns it to the right and sorts it by value; `filtered` gives it a menu, set to `preset` at first.
-
-    `help` explains the heading on pointing at it; the sentence above the table must not need it.
+    `is_wide` lets its text run over several lines.
     """
 
     title: str
     is_number: bool = False
     filtered: bool = False
     preset: str = ""
-    help: str = ""
+    is_wide: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pandas as pd
@@ -30,8 +31,8 @@ class Job:
 
 
 def measured(jobs: Sequence[Job]) -> pd.DataFrame:
-    """Columns rule, dataset, model, preset, seconds, cpu_seconds, memory_mb (peak resident), n_trials, n_pruned and
-    fit_seconds (NaN where not recorded), one row per job.
+    """Columns rule, dataset, model, preset, seconds, cpu_seconds, memory_mb (peak resident), ended (UTC), n_trials,
+    n_pruned and fit_seconds (NaN where not recorded), one row per job.
     """
     rows = []
     for job in jobs:
@@ -41,6 +42,7 @@ def measured(jobs: Sequence[Job]) -> pd.DataFrame:
             {
                 **{"rule": job.rule, "dataset": job.dataset, "model": job.model, "preset": job.preset},
                 **{"seconds": benchmark["s"], "cpu_seconds": benchmark["cpu_time"], "memory_mb": benchmark["max_rss"]},
+                "ended": datetime.fromtimestamp(job.benchmark.stat().st_mtime, UTC),
                 **{name: record.get(name, float("nan")) for name in ("n_trials", "n_pruned", "fit_seconds")},
             }
         )
@@ -51,17 +53,17 @@ def slowest_grid(times: pd.DataFrame, models: Mapping[str, str]) -> Grid:
     """The slowest jobs first."""
     rows = []
     for row in times.nlargest(N_SLOWEST, "seconds").itertuples():
-        trials = NOTHING if math.isnan(row.n_trials) else f"{row.n_trials:.0f}"
+        trials = [NOTHING if math.isnan(n) else f"{n:.0f}" for n in (row.n_trials, row.n_pruned)]
         rows.append(
             [
                 *(Cell(row.rule), Cell(row.dataset), Cell(models.get(row.model, "all")), Cell(row.preset or "all")),
                 *map(number, (row.seconds, row.cpu_seconds, row.memory_mb)),
-                *(Cell(trials), number(row.n_pruned), number(row.fit_seconds)),
+                *(*map(Cell, trials), number(row.fit_seconds)),
             ]
         )
     sentence = (
-        f"The {len(rows)} jobs that took longest, of {len(times)} that were measured. Beside the wall time, the CPU "
-        "time says whether a job computed or waited for its turn."
+        f"The {len(rows)} jobs that took longest, of {len(times)} that were measured: a study (tune) fits its model "
+        "once a trial and fold, and CPU time far below wall time means that a job waited for its turn."
     )
     columns = [Column("Job", filtered=True), Column("Robot", filtered=True), Column("Model"), Column("Preset")]
     columns += [Column(title, is_number=True) for title in ("Wall time (s)", "CPU time (s)", "Peak memory (MB)")]
@@ -70,11 +72,15 @@ def slowest_grid(times: pd.DataFrame, models: Mapping[str, str]) -> Grid:
 
 
 def duration(times: pd.DataFrame) -> str:
-    """'12 min 34 s in 80 measured jobs (10 min 2 s of CPU), most of it in tune (8 min 1 s)'."""
+    """'12 min 34 s in 80 measured jobs, added up (10 min 2 s of CPU), most of it in tune (8 min 1 s); ...'."""
     stages = times.groupby("rule")["seconds"].sum()
     total, cpu = readable(times["seconds"].sum()), readable(times["cpu_seconds"].sum())
     longest = f"{stages.idxmax()} ({readable(stages.max())})"
-    return f"{total} in {len(times)} measured jobs, one after the other ({cpu} of CPU); most of it in {longest}"
+    first, last = (moment.strftime("%Y-%m-%d %H:%M") for moment in (times["ended"].min(), times["ended"].max()))
+    return (
+        f"{total} in {len(times)} measured jobs, added up ({cpu} of CPU), most of it in {longest}; by their files they "
+        f"ended between {first} and {last} UTC"
+    )
 
 
 def readable(seconds: float) -> str:

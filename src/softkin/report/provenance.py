@@ -81,10 +81,10 @@ def data_grid(
             ]
         )
     sentence = (
-        "The robots of this run. A command is what drives one (pressures, pulls of a tendon), a marker a point on it "
-        "whose position is predicted, in mm; the hash names the file's content beyond doubt."
+        "What the models learned from: commands drive a robot, markers are the points on it whose positions are "
+        "predicted, in mm, and the hash names the file's content beyond doubt."
     )
     numbers = ("Commands", "Markers", "Train rows", "Validation", "Test", "Extrapolation")
-    columns = [Column("Robot"), Column("Title"), *(Column(title, is_number=True) for title in numbers)]
+    columns = [Column("Robot"), Column("Title", is_wide=True), *(Column(title, is_number=True) for title in numbers)]
     columns += [Column("Never move"), Column("File"), Column("SHA-256 of the file")]
     return Grid("data", "The data", sentence, columns, rows)

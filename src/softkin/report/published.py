@@ -77,7 +77,7 @@ def intervals_grid(cells: pd.DataFrame, methods: Mapping[str, str], marks: Marks
         "over the coordinates that move, and the single coordinate, model and level that comes nearest to the print."
     )
     shown = [ROBOT, Column("Method", filtered=True), METRIC, PRINTED, Column("Ours, average", is_number=True)]
-    shown += [Column("Against the print"), Column("Nearest", is_number=True), VERDICT, Column("Remark")]
+    shown += [Column("Against the print"), Column("Nearest", is_number=True), VERDICT, Column("Remark", is_wide=True)]
     return Grid("published-intervals", "Intervals", sentence, shown, rows, "tables/published_intervals.csv")
 
 

@@ -31,9 +31,9 @@ def point_grid(scores: pd.DataFrame, selection: pd.DataFrame | None, models: Map
         for row in scores.itertuples()
     ]
     sentence = (
-        "How far predicted positions lie from the true ones: for a robot, read the mean error, the distance between a "
-        "marker and its prediction, and the error that 95 % of cases stay below. RMSE, MAE, R2 and MAPE are averaged "
-        "over coordinates, those that never move included, as the paper does."
+        "How far predictions lie from the truth: for a robot, read the mean error, the distance of a marker from its "
+        "prediction, and what 95 % of these distances stay below; the other errors are means over coordinates, as in "
+        "the paper, those that never move included."
     )
     measured = ["Mean error (mm)", "95 % below (mm)", "RMSE (mm)", "MAE (mm)", "R2", "MAPE (%)"]
     measured += ["Fit (s)", "Predict (µs a row)"]
@@ -60,11 +60,8 @@ def interval_grid(
         for row in interval_rows(metrics).itertuples()
     ]
     sentence = (
-        "How often the interval around a predicted coordinate holds the true one, and how wide it is. Good is narrow "
-        "at the promised coverage: the Winkler score, the lower the better, weighs both. As promised counts the "
-        "coordinates whose coverage on test lies in the exact 95 % band of that promise; at once is the share of rows "
-        "with all moving coordinates inside; size the side of a cube of the same volume. Beyond the training range "
-        "(extrapolation) nothing is promised."
+        "How often the interval around a predicted coordinate holds the true one, how many coordinates do so as often "
+        "as promised, how often all do at once, and how wide the intervals are; a good one has a low Winkler score."
     )
     columns = [
         ROBOT,
@@ -121,10 +118,9 @@ def choice_grid(choice: pd.DataFrame, models: Mapping[str, str], methods: Mappin
     ]
     level = choice["confidence_level"].iloc[0]
     sentence = (
-        f"The {share_text(level, digits=0)} intervals that each robot could have had, and the one it got: "
-        "that of the lowest Winkler score in a cross-validation inside the validation rows. The test rows, looked at "
-        "afterwards, say what the "
-        "choice was worth; a ratio under 1 is better than the paper's recipe."
+        f"The {share_text(level, digits=0)} intervals that each robot could have had, and the one it got, that of the "
+        "lowest Winkler score on validation rows; what it was worth shows on test rows, in mm and as a ratio to the paper's "
+        "recipe."
     )
     columns = [ROBOT, Column("Method"), Column("Around"), Column("Winkler when choosing (mm)", is_number=True)]
     columns += [Column("Covers, test", is_number=True), Column("Mean width, test (mm)", is_number=True)]

@@ -1,6 +1,6 @@
 "use strict";
 // Every [data-grid]: menus filter its rows, headings sort them; a long table shows its first rows until asked for all.
-const FIRST_ROWS = 40;
+const FIRST_ROWS = 100;
 
 // A cell begins with its value; badges follow it.
 const textOf = (row, place) => {
@@ -27,7 +27,9 @@ function enliven(grid) {
     const kept = order.filter((row) => menus.every((menu) => !menu.value || textOf(row, menu.dataset.place) === menu.value));
     const shown = new Set(isWhole ? kept : kept.slice(0, FIRST_ROWS));
     for (const row of order) row.hidden = !shown.has(row);
-    count.textContent = kept.length ? `${shown.size} of ${kept.length} matching rows, ${rows.length} in all` : "no row matches";
+    const all = kept.length === rows.length ? "" : `, of ${rows.length} in all`;
+    const some = shown.size === kept.length ? "" : `${shown.size} shown of `;
+    count.textContent = kept.length ? `${some}${kept.length} row${kept.length === 1 ? "" : "s"}${all}` : "No row matches.";
     more.hidden = shown.size === kept.length;
   }
 
