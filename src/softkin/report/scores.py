@@ -119,8 +119,8 @@ def choice_grid(choice: pd.DataFrame, models: Mapping[str, str], methods: Mappin
     level = choice["confidence_level"].iloc[0]
     sentence = (
         f"The {share_text(level, digits=0)} intervals that each robot could have had, and the one it got, that of the "
-        "lowest Winkler score on validation rows; what it was worth shows on test rows, in mm and as a ratio to the paper's "
-        "recipe."
+        "lowest Winkler score on validation rows; what it was worth shows on test rows, in mm and as a ratio to the "
+        "paper's recipe."
     )
     columns = [ROBOT, Column("Method"), Column("Around"), Column("Winkler when choosing (mm)", is_number=True)]
     columns += [Column("Covers, test", is_number=True), Column("Mean width, test (mm)", is_number=True)]
