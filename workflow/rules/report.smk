@@ -74,7 +74,12 @@ rule report:
             if path.suffix != ".pyc"
         ],
     output:
-        REPORT,
+        report(
+            REPORT,
+            caption="../report/page.rst",
+            category="Overview",
+            labels={"result": "report"},
+        ),
     log:
         "results/logs/report.log",
     conda:
