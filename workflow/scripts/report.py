@@ -25,6 +25,5 @@ with job(snakemake.log[0], "report"):
         model_titles={name: spec.title for name, spec in MODELS.items()},
         interval_titles={name: method.title for name, method in methods.items()},
         citation=given.citation,
-        house=Path(snakemake.scriptdir).parents[1],
         report=snakemake.output[0],
     )

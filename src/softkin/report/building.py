@@ -40,14 +40,13 @@ def build_report(
     model_titles: Mapping[str, str],
     interval_titles: Mapping[str, str],
     citation: str | Path,
-    house: str | Path,
     report: str | Path,
 ) -> None:
     """Write the page `report`, beside which the folders of `figures` lie.
 
     `tables` are files of results/tables; `descriptions`, `data_cards` (may be empty) and `figures` (folders) are by
     dataset; `config` is the whole checked
-    configuration; `citation` is CITATION.cff; `house` the folder of the Snakefile, whose commit is told.
+    configuration; `citation` is CITATION.cff at the top of the checkout whose commit is told.
 
     Raises:
         SoftkinError: the page would be larger than 10 MB.
@@ -67,7 +66,7 @@ def build_report(
             campaign=config["campaign"],
             seed=config["seed"],
             written=datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
-            commit=commit(Path(house)),
+            commit=commit(Path(citation).parent),
             versions=versions(),
             duration=duration(times),
             settings=settings(config),
