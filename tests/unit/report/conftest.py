@@ -143,8 +143,12 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Results:
     benchmark.parent.mkdir()
     benchmark.write_text("s\tmax_rss\tcpu_time\n75.5\t200\t60\n")
     write_json(record, {"n_trials": 30, "n_pruned": 4})
-    citation = folder / "CITATION.cff"
+    house = folder.parent / "house"
+    house.mkdir()
+    citation = house / "CITATION.cff"
     citation.write_text("title: softkin\nversion: 1.0\nauthors: [{name: The authors}]\n")
+    for command in (["init", "-q"], ["add", "."], ["-c", "user.name=me", "-c", "user.email=@", "commit", "-qm", "one"]):
+        subprocess.run(["git", "-C", str(house), *command], check=True)
     config = {
         "campaign": "made-up",
         "seed": 7,
@@ -152,9 +156,6 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Results:
         "tracking_uri": "postgresql://me:secret@host/db",
         "sources": sources,
     }
-    house = folder.parent / "house"
-    house.mkdir()
-    subprocess.run(["git", "init", "-q", str(house)], check=True)
     arguments = {
         "tables": tables,
         "descriptions": {dataset: folder / dataset / "dataset.json" for dataset in ROBOTS},
@@ -168,7 +169,6 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Results:
         "model_titles": MODELS,
         "interval_titles": METHODS,
         "citation": citation,
-        "house": house,
     }
     return Results(folder, arguments)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import subprocess
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -36,8 +37,11 @@ def test_the_page_is_self_contained(page: Path) -> None:
     assert all(f'id="{target}"' in text for target in targets)
 
 
-def test_it_says_what_was_run(page: Path) -> None:
+def test_it_says_what_was_run(page: Path, results: Results) -> None:
     text = page.read_text(encoding="utf-8")
+    house = Path(results.arguments["citation"]).parent
+    head = subprocess.run(["git", "-C", str(house), "rev-parse", "HEAD"], capture_output=True, text=True, check=True)
+    assert text.count(head.stdout.strip()) == 2  # what was run, and how to run it again
     for part in (
         "campaign made-up",
         "ab" * 32,
