@@ -4,7 +4,8 @@ CORES ?= 2
 BIN := .venv/bin
 export MLFLOW_DISABLE_TELEMETRY := true
 
-.PHONY: run unlock new-robot test test-run lint ui store campaigns benchmark coverage standins environment clean
+.PHONY: run unlock new-robot test test-run lint ui store report snakemake-report campaigns benchmark coverage standins
+.PHONY: environment clean
 
 run: .venv/installed
 	$(BIN)/snakemake --cores $(CORES)
@@ -36,6 +37,14 @@ ui: .venv/installed
 # Make the MLflow store anew, or bring it up to date, from results/.
 store: .venv/installed
 	$(BIN)/snakemake --cores $(CORES) --forcerun create_store track
+
+# The page of the run, results/report.html, and nothing that it does not need.
+report: .venv/installed
+	$(BIN)/snakemake --cores $(CORES) results/report.html
+
+# Snakemake's own report of a finished run: the same results with captions, and how each came about.
+snakemake-report: .venv/installed
+	$(BIN)/snakemake --report results/snakemake_report.html
 
 # Long statistical and fault campaigns.
 campaigns: .venv/installed

@@ -10,6 +10,9 @@ from snakemake.utils import min_version
 min_version("9.0")
 
 
+report: "workflow/report/workflow.rst"
+
+
 configfile: Path(workflow.basedir) / "config" / "config.yaml"
 configfile: Path(workflow.basedir) / "config" / "datasets.yaml"
 
@@ -26,6 +29,7 @@ include: "workflow/rules/quantiles.smk"
 include: "workflow/rules/intervals.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/tables.smk"
+include: "workflow/rules/report.smk"
 include: "workflow/rules/track.smk"
 
 

@@ -36,7 +36,7 @@ FLOORS = [
     {"fitting", "quantiles", "tables", "new_robot", "auditing"},
     {"scoring", "tuning", "tracking", "refitting", "evidence"},
     {"calibrating", "choosing_intervals", "tuning_quantiles", "scoring_regions"},
-    {"scoring_intervals", "conditional_coverage", "figures", "calibrated_model"},
+    {"scoring_intervals", "conditional_coverage", "figures", "calibrated_model", "report"},
 ]
 #: A folder's __init__ is its registry, preparing is the one call of its stage, table_file reads either kind of file,
 #: build gathers the tables.
@@ -53,6 +53,11 @@ GATHERERS |= {f"standins/{path.name}" for path in (SOURCE / "standins").glob("*.
 #: All figures have one style.
 GATHERERS |= {f"figures/{name}.py" for name in ("__init__", "drawing", "intervals", "conditional_coverage")}
 GATHERERS |= {"tables/headline.py", "tracking/__init__.py", "tracking/models.py", "tracking/intervals.py"}
+
+#: The page is gathered from its parts.
+GATHERERS |= {
+    f"report/{name}.py" for name in ("building", "grid", "headline", "jobs", "provenance", "published", "scores")
+}
 
 FIGURES = {module.as_posix() for module in MODULES if module.parts[0] == "figures"}
 
@@ -93,6 +98,7 @@ def test_imports_go_down_only(module: Path) -> None:
         ("matplotlib", FIGURES),
         ("snakemake", set()),
         ("optuna", {"tuning.py"}),
+        ("jinja2", {"report/building.py"}),
     ],
 )
 def test_a_library_is_imported_in_its_one_place(library: str, allowed: set[str]) -> None:

@@ -9,7 +9,7 @@ from softkin.configuration import check_configuration
 from softkin.datasets import READERS, reader_files
 from softkin.datasets.reaching import warning, with_stand_ins
 from softkin.figures import FIGURES
-from softkin.interface import PRESETS, SoftkinError, TUNED
+from softkin.interface import PAPER, PRESETS, SoftkinError, TUNED
 from softkin.intervals import INTERVAL_METHODS
 from softkin.models import MODELS, source_files
 from softkin.quantile_models import QUANTILE_MODELS
@@ -46,6 +46,7 @@ PUBLISHED = Path(workflow.basedir) / "config" / "published"
 # For `--software-deployment-method conda`; unused otherwise.
 SOFTWARE = "../envs/softkin.yaml"
 HEADLINE = "results/tables/headline.txt"
+REPORT = "results/report.html"
 TABLES = [
     "point_metrics.csv",
     "marker_errors.csv",
@@ -238,6 +239,7 @@ def every_dataset_and_model():
 def final_output():
     """All that a complete campaign leaves."""
     return [
+        REPORT,
         HEADLINE,
         "results/tables/paper_tables.md",
         "results/tables/paper_tables.tex",

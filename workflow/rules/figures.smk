@@ -14,7 +14,14 @@ rule figures:
         code=package("bounds.py", "figures/drawing.py", "figures/style.py"),
         figure_code=figure_code(),
     output:
-        directory("results/{dataset}/figures"),
+        report(
+            directory("results/{dataset}/figures"),
+            patterns=["{figure}.png"],
+            caption="../report/figure.rst",
+            category="Figures",
+            subcategory="{dataset}",
+            labels={"figure": "{figure}"},
+        ),
     log:
         "results/logs/figures/{dataset}.log",
     priority: 30

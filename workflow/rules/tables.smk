@@ -24,9 +24,30 @@ rule tables:
             "tables/headline.py",
         ),
     output:
-        headline=HEADLINE,
-        paper=multiext("results/tables/paper_tables", ".md", ".tex"),
-        tables=expand("results/tables/{name}", name=TABLES),
+        headline=report(
+            HEADLINE,
+            caption="../report/headline.rst",
+            category="Overview",
+            labels={"result": "headline"},
+        ),
+        paper=[
+            report(
+                f"results/tables/paper_tables.{ending}",
+                caption="../report/paper_tables.rst",
+                category="Tables",
+                labels={"table": f"paper_tables.{ending}"},
+            )
+            for ending in ("md", "tex")
+        ],
+        tables=[
+            report(
+                f"results/tables/{name}",
+                caption="../report/table.rst",
+                category="Tables",
+                labels={"table": name},
+            )
+            for name in TABLES
+        ],
     log:
         "results/logs/tables.log",
     conda:

@@ -38,6 +38,7 @@ def headline(
     lines += [f"  {sentence}" for sentence in sentences]
     lines += [
         "",
+        "  results/report.html      the whole run on one page",
         "  results/tables/          the tables, as CSV, Markdown and LaTeX",
         "  results/tables/paper_tables.md   the paper's Tables 2 to 6 beside ours",
         "  make ui                  browse every run in the MLflow UI",

@@ -1,0 +1,79 @@
+"""Figures as parts of the page: every picture of a dataset's folder as a data URI."""
+
+from __future__ import annotations
+
+import base64
+import io
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import pandas as pd
+from PIL import Image
+
+#: All pictures together may take this many bytes, as base64; the page must stay under 10 MB.
+BUDGET = 7_000_000
+#: WebP qualities that are tried, after a lossless one, on a picture that is larger than its part of the budget.
+QUALITIES = (90, 75, 60, 40)
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """`uri` is the picture itself; `file` where its full-size original lies, beside the report."""
+
+    title: str
+    alternative: str
+    uri: str
+    width: int
+    height: int
+    file: str
+    is_reduced: bool
+
+
+def pictures(folders: Mapping[str, Path], titles: Mapping[str, str], beside: Path) -> dict[str, list[Picture]]:
+    """By dataset, its pictures: those of index.csv in its order, then any other PNG of the folder by name.
+
+    `titles` is dataset -> title, for the alternative text; `beside` the folder of the report. A picture that no index
+    names is titled after its file.
+    """
+    named = {dataset: _named(folder) for dataset, folder in folders.items()}
+    count = sum(map(len, named.values()))
+    return {
+        dataset: [_picture(path, title, titles[dataset], BUDGET // count, beside) for path, title in files.items()]
+        for dataset, files in named.items()
+    }
+
+
+def _named(folder: Path) -> dict[Path, str]:
+    """PNG -> title."""
+    index = pd.read_csv(folder / "index.csv", dtype=str).drop_duplicates("figure")
+    known = {folder / f"{row.figure}.png": str(row.title) for row in index.itertuples()}
+    others = {path: path.stem.replace("_", " ").capitalize() for path in sorted(folder.glob("*.png"))}
+    return known | {path: title for path, title in others.items() if path not in known}
+
+
+def _picture(path: Path, title: str, robot: str, budget: int, beside: Path) -> Picture:
+    with Image.open(path) as image:
+        content, is_reduced = _encoded(image, budget * 3 // 4)
+        uri = "data:image/webp;base64," + base64.b64encode(content).decode("ascii")
+        file = path.relative_to(beside).as_posix()
+        return Picture(title, f"{title}: {robot}", uri, image.width, image.height, file, is_reduced)
+
+
+def _encoded(image: Image.Image, budget: int) -> tuple[bytes, bool]:
+    """WebP of at most `budget` bytes, lossless where that suffices: the content, and whether anything was lost."""
+    content = _webp(image, lossless=True)
+    if len(content) <= budget:
+        return content, False
+    for quality in QUALITIES:
+        content = _webp(image, quality=quality)
+        if len(content) <= budget:
+            return content, True
+    smaller = image.resize((image.width * 3 // 4, image.height * 3 // 4), Image.Resampling.LANCZOS)
+    return _encoded(smaller, budget)[0], True
+
+
+def _webp(image: Image.Image, **options: int) -> bytes:
+    stream = io.BytesIO()
+    image.convert("RGB").save(stream, format="WEBP", method=4, **options)
+    return stream.getvalue()

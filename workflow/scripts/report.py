@@ -1,0 +1,29 @@
+"""Rule report: one page that tells the run."""
+
+from itertools import zip_longest
+from pathlib import Path
+
+from softkin.intervals import INTERVAL_METHODS
+from softkin.job import job
+from softkin.models import MODELS
+from softkin.regions import REGION_METHODS
+from softkin.report.building import build_report
+from softkin.report.jobs import Job
+
+given, params = snakemake.input, snakemake.params
+datasets = params.config["datasets"]
+runs = zip_longest(params.jobs, given.benchmarks, given.records)  # the first jobs left a record
+methods = {**INTERVAL_METHODS, **REGION_METHODS}
+with job(snakemake.log[0], "report"):
+    build_report(
+        tables=given.tables,
+        descriptions=dict(zip(datasets, given.descriptions, strict=True)),
+        data_cards=dict(zip(datasets, given.data_cards, strict=True)) if given.data_cards else {},
+        figures=dict(zip(datasets, given.figures, strict=True)),
+        jobs=[Job(*run, Path(benchmark), record and Path(record)) for run, benchmark, record in runs],
+        config=params.config,
+        model_titles={name: spec.title for name, spec in MODELS.items()},
+        interval_titles={name: method.title for name, method in methods.items()},
+        citation=given.citation,
+        report=snakemake.output[0],
+    )
