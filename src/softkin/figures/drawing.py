@@ -1,4 +1,4 @@
-"""Draw every figure of a dataset: PNG for people, SVG for papers, the frame behind it as CSV."""
+"""Draw every figure of a registry: PNG for people, SVG for papers, the frame behind it as CSV."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import pandas as pd
 
 from softkin.figures.style import SETTINGS
 from softkin.files import replacing
-from softkin.interface import DatasetResults, FigureSpec
+from softkin.interface import FigureSpec, Results
 
 logger = logging.getLogger("softkin")
 
@@ -19,7 +19,7 @@ DPI = 150
 RUN_COLUMNS = ["model", "preset", "interval_method"]
 
 
-def draw(figures: Mapping[str, FigureSpec], results: DatasetResults, folder: Path) -> None:
+def draw(figures: Mapping[str, FigureSpec[Results]], results: Results, folder: Path) -> None:
     """Write {name}.png, .svg and .csv of each figure into `folder`, and index.csv: which run each of them shows.
 
     A figure whose methods or models were not run has no rows, and is left out with a line in the log.
@@ -39,6 +39,7 @@ def draw(figures: Mapping[str, FigureSpec], results: DatasetResults, folder: Pat
             for ending, metadata in (("png", {"Software": None}), ("svg", {"Date": None})):
                 with replacing(folder / f"{name}.{ending}") as temporary:
                     figure.savefig(temporary, format=ending, dpi=DPI, metadata=metadata)
+                figure.set_layout_engine("none")  # it has found the places; finding them again takes as long
         runs = frame[RUN_COLUMNS].drop_duplicates().to_dict("records")
         index += [{"figure": name, "title": spec.title, **run} for run in runs]
         logger.info("drawn: %s", name)

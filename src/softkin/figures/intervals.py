@@ -9,17 +9,19 @@ import numpy as np
 import pandas as pd
 
 from softkin.bounds import read_bounds
+from softkin.choosing_intervals import PAPERS_RUN
 from softkin.datasets.table import read_subset
-from softkin.figures.style import BLUE, GREY, SKY, VERMILION, panels
-from softkin.interface import PAPER, TEST, TRAIN, DatasetResults, FigureSpec, coordinate_columns
+from softkin.figures.reading import candidates, shown_coordinate
+from softkin.figures.reading import chosen as chosen_run
+from softkin.figures.style import BLUE, GREY, SKY, VERMILION, heading, legend_below, panels
+from softkin.interface import TEST, DatasetResults, FigureSpec
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: The paper's four, and the learner that it uses for all of them.
+#: The paper's four.
 METHODS = ("qr", "cqr", "scp_mapie", "scp_crepes")
-PAPERS_MODEL = "gb"
 
 
 def frame(results: DatasetResults, *, chosen: bool) -> pd.DataFrame:
@@ -29,19 +31,18 @@ def frame(results: DatasetResults, *, chosen: bool) -> pd.DataFrame:
     `train`. `chosen`: around the chosen model instead of the paper's; QR and CQR, which have learners of their own,
     around the paper's learner in the preset of the chosen model.
     """
-    positions = read_subset(results.table, TRAIN).positions
-    coordinate = int(np.argmax(np.ptp(positions, axis=0)))
-    name = coordinate_columns(positions.shape[1] // 3)[coordinate]
+    coordinate, name = shown_coordinate(results)
     true = read_subset(results.table, TEST).positions[:, coordinate]
     order = np.argsort(true, kind="stable")
-    choice = pd.read_csv(results.choice)
-    level = float(choice["confidence_level"].iloc[0])
-    around = choice[~choice["interval_method"].str.startswith("cqr")].iloc[0]
-    model, preset = (around["model"], around["preset"]) if chosen else (PAPERS_MODEL, PAPER)
+    level = float(candidates(results)["confidence_level"].iloc[0])
+    best = chosen_run(results)
+    if chosen and best is None:
+        return pd.DataFrame()
+    model, preset = best.run if chosen and best else PAPERS_RUN
     parts = []
     for method in (method for method in METHODS if method in results.intervals):
         stored = pd.read_parquet(results.intervals[method])
-        learner = PAPERS_MODEL if results.on_quantiles[method] else model
+        learner = PAPERS_RUN[0] if results.on_quantiles[method] else model
         mine = stored[(stored["model"] == learner) & (stored["preset"] == preset)]
         if mine.empty:
             continue
@@ -70,9 +71,8 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     coordinate, level = frame["coordinate"].iloc[0], frame["confidence_level"].iloc[0]
     axes[0][0].set_ylabel(f"{coordinate} (mm)")
     axes[1][0].set_ylabel("distance from truth (mm)")
-    handles, labels = axes[0][0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False)
-    figure.suptitle(f"{results.title}: {level:.0%} intervals of {coordinate}", fontsize=10)
+    legend_below(figure, axes[0][0].get_legend_handles_labels()[0], 3)
+    heading(figure, results, f"{level:.0%} intervals of {coordinate}")
     return figure
 
 
@@ -86,5 +86,18 @@ def _draw(axes: Axes, rows: pd.DataFrame, origin: object) -> None:
     axes.axhline(0.0, color=GREY, linewidth=0.4)
 
 
-PAPER_RECIPE = FigureSpec("intervals_paper", "Intervals around the paper's model", partial(frame, chosen=False), plot)
-CHOSEN_MODEL = FigureSpec("intervals_chosen", "Intervals around the chosen model", partial(frame, chosen=True), plot)
+PAPER_RECIPE = FigureSpec(
+    "intervals_paper",
+    "Intervals around the paper's model",
+    "Intervals of the paper's four methods around gradient boosting with the paper's settings, on test, sorted by true "
+    "position (the paper's Figure 6).",
+    partial(frame, chosen=False),
+    plot,
+)
+CHOSEN_MODEL = FigureSpec(
+    "intervals_chosen",
+    "Intervals around the chosen model",
+    "The same methods around the chosen model; QR and CQR have learners of their own.",
+    partial(frame, chosen=True),
+    plot,
+)
