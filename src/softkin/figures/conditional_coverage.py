@@ -79,8 +79,8 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
 FIGURE = FigureSpec(
     "conditional_coverage",
     "Conditional coverage",
-    "Coverage on test of parts of the rows: by command, position, width, marker, and in the worst slab of command space. "
-    "Bars are two standard errors, the dashed line is the level asked for.",
+    "Coverage on test of parts of the rows: by command, position, width, marker, and in the worst slab of command "
+    "space. Bars are two standard errors, the dashed line is the level asked for.",
     frame,
     plot,
 )

@@ -10,7 +10,17 @@ import pandas as pd
 from softkin.choosing_intervals import PAPERS_RUN
 from softkin.datasets.table import read_subset
 from softkin.figures.reading import chosen, mean_marker_errors
-from softkin.figures.style import BLACK, PAGE, SUBSET_COLOURS, heading, legend_below, logarithmic, panels, sample
+from softkin.figures.style import (
+    BLACK,
+    LEAST_MM,
+    PAGE,
+    SUBSET_COLOURS,
+    heading,
+    legend_below,
+    logarithmic,
+    panels,
+    sample,
+)
 from softkin.interface import EXTRAPOLATION, TEST, TRAIN, Array, DatasetResults, FigureSpec
 
 if TYPE_CHECKING:
@@ -30,8 +40,9 @@ def frame(results: DatasetResults) -> pd.DataFrame:
     best = chosen(results)
     runs = [*([best.run] if best else []), PAPERS_RUN]
     parts = [
-        pd.DataFrame({"distance": distances(results, subset), "error_mm": mean_marker_errors(results, run, subset)})
-        .assign(model=run[0], preset=run[1], interval_method="", subset=subset)
+        pd.DataFrame(
+            {"distance": distances(results, subset), "error_mm": mean_marker_errors(results, run, subset)}
+        ).assign(model=run[0], preset=run[1], interval_method="", subset=subset)
         for run in dict.fromkeys(runs)
         if run in results.predictions
         for subset in (TEST, EXTRAPOLATION)
@@ -57,12 +68,13 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     for axis, ((model, preset), rows) in zip(axes[0], runs, strict=True):
         for subset, part in rows.groupby("subset", sort=False):
             colour = SUBSET_COLOURS[str(subset)]
-            axis.plot(part["distance"], part["error_mm"], ".", color=colour, markersize=2, alpha=0.6, rasterized=True)
+            errors = part["error_mm"].clip(lower=LEAST_MM)
+            axis.plot(part["distance"], errors, ".", color=colour, markersize=2, alpha=0.6, rasterized=True)
         ordered = rows.sort_values("distance", kind="stable")
         groups = np.array_split(np.arange(len(ordered)), N_PARTS)
         middles = [ordered.iloc[group][["distance", "error_mm"]].median() for group in groups if len(group)]
         line = pd.DataFrame(middles).groupby("distance")["error_mm"].median()
-        axis.semilogy(line.index, line.to_numpy(), color=BLACK, linewidth=1.4)
+        axis.semilogy(line.index, line.clip(lower=LEAST_MM), color=BLACK, linewidth=1.4)
         axis.set_title(f"{results.model_titles[str(model)]}, {preset}")
         axis.set_xlabel("distance to the nearest train command\n(standard deviations of a command)")
     logarithmic(axes[0][0].yaxis)
@@ -71,7 +83,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
         sample(subset, color=SUBSET_COLOURS[subset], marker=".", linestyle="") for subset in (TEST, EXTRAPOLATION)
     ]
     legend_below(figure, [*samples, sample("median of rows equally far away", color=BLACK, linewidth=1.4)], 3)
-    heading(figure, results, "error against distance from the training data")
+    heading(figure, results, "error against distance from train")
     return figure
 
 

@@ -53,7 +53,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     axes[0][0].set_ylabel("share of rows")
     samples = [sample(subset, color=colour, linewidth=1.8) for subset, colour in SUBSET_COLOURS.items()]
     legend_below(figure, samples, len(samples))
-    heading(figure, results, f"where marker {groups[0][0].split('_')[0]} is, in each subset")
+    heading(figure, results, f"where marker {groups[0][0].split('_')[0]} is, in each subset", SUBSETS)
     return figure
 
 

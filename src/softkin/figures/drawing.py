@@ -19,6 +19,15 @@ DPI = 150
 RUN_COLUMNS = ["model", "preset", "interval_method"]
 
 
+def shrink(picture: Path) -> None:
+    """A third of the size, to the eye the same: 256 colours, chosen for the picture."""
+    from PIL import Image
+
+    with Image.open(picture) as image:
+        small = image.convert("RGB").quantize(256, dither=Image.Dither.NONE)
+    small.save(picture, format="png")
+
+
 def draw(figures: Mapping[str, FigureSpec[Results]], results: Results, folder: Path) -> None:
     """Write {name}.png, .svg and .csv of each figure into `folder`, and index.csv: which run each of them shows.
 
@@ -39,6 +48,8 @@ def draw(figures: Mapping[str, FigureSpec[Results]], results: Results, folder: P
             for ending, metadata in (("png", {"Software": None}), ("svg", {"Date": None})):
                 with replacing(folder / f"{name}.{ending}") as temporary:
                     figure.savefig(temporary, format=ending, dpi=DPI, metadata=metadata)
+                    if ending == "png":
+                        shrink(temporary)
                 figure.set_layout_engine("none")  # it has found the places; finding them again takes as long
         runs = frame[RUN_COLUMNS].drop_duplicates().to_dict("records")
         index += [{"figure": name, "title": spec.title, **run} for run in runs]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 N_COLUMNS = 4
 #: A panel shows this share of the true range beyond it, at either end.
 MARGIN = 0.3
+OFF_SCALE: dict[str, Any] = {"fontsize": 6.5, "bbox": {"color": "white", "alpha": 0.8, "pad": 1.0}}
 
 
 def frame(results: DatasetResults) -> pd.DataFrame:
@@ -53,6 +54,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
                 continue
             _draw(axis, frame[(frame["model"] == models[place]) & (frame["subset"] == subset)])
             axis.tick_params(labelleft=column == 0)
+            axis.locator_params(nbins=4)
             if row == 0:
                 axis.set_title(results.model_titles[models[place]])
             if row == 1:
@@ -83,7 +85,7 @@ def _draw(axes: Axes, rows: pd.DataFrame) -> None:
     axes.plot(true["place"], true["true_mm"], color=BLACK, linewidth=1.0)
     axes.set_ylim(low, high)
     if outside:
-        axes.text(0.97, 0.03, "\n".join(outside), transform=axes.transAxes, ha="right", va="bottom", fontsize=6.5)
+        axes.text(0.97, 0.03, "\n".join(outside), transform=axes.transAxes, ha="right", va="bottom", **OFF_SCALE)
 
 
 FIGURE = FigureSpec(

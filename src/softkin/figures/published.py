@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pandas as pd
 
-from softkin.figures.style import PAGE, panels
+from softkin.figures.style import BLACK, PAGE, panels
 from softkin.interface import PRESETS, CampaignResults, FigureSpec
+from softkin.tables.published import REPRODUCED
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -51,8 +52,8 @@ def plot(frame: pd.DataFrame, results: CampaignResults) -> Figure:
         for column, preset in enumerate(presets):
             mine = frame[(frame["dataset"] == dataset) & (frame["preset"] == preset)]
             image = _draw(axes[row][column], mine, models, norm)
-            marked = "*" if (mine["note"] != "").any() else ""
-            axes[row][column].set_title(f"{results.dataset_titles[dataset].split(' (')[0]}{marked}, {preset} preset", pad=14)
+            name = results.dataset_titles[dataset].split(" (")[0] + ("*" if (mine["note"] != "").any() else "")
+            axes[row][column].set_title(f"{name}, {preset} preset", pad=14)
         axes[row][0].set_yticks(range(len(models)), [results.model_titles[model] for model in models])
     figure.colorbar(
         image,
@@ -68,7 +69,7 @@ def plot(frame: pd.DataFrame, results: CampaignResults) -> Figure:
     ).minorticks_off()
     remarks = [f"* {row.subset}, {row.dataset}: {row.note}" for row in notes.itertuples()]
     lines = [fill(remark, 125) for remark in remarks]
-    figure.suptitle("\n".join(["the paper's Tables 3 to 5 against ours, cell by cell", *lines]), fontsize=8.5)
+    figure.suptitle("\n".join(["The paper's Tables 3 to 5 against ours, cell by cell", *lines]), fontsize=8.5)
     return figure
 
 
@@ -76,16 +77,17 @@ def _draw(axes: Axes, cells: pd.DataFrame, models: list[str], norm: Any) -> Any:
     columns = [(s, m) for s in cells["subset"].unique() for m in METRICS]
     table = cells.set_index(["model", "subset", "metric"])
     ratios = np.array([[table["ratio"].get((model, *column), np.nan) for column in columns] for model in models])
-    image = axes.imshow(ratios, norm=norm, cmap="PuOr_r", aspect="auto")
+    shown = np.clip(ratios, 1 / LIMIT**2, LIMIT**2)
+    image = axes.imshow(shown, norm=norm, cmap="PuOr_r", aspect="auto")
     for (row, column), ratio in np.ndenumerate(ratios):
         if np.isfinite(ratio):
             verdict = table.loc[(models[row], *columns[column]), "verdict"]
-            dark = abs(np.log(ratio if ratio > 0 else 1 / LIMIT)) > np.log(LIMIT) * 0.7
-            weight = "bold" if verdict == "reproduced" else "normal"
-            text = _short(ratio)
-            axes.text(
-                column, row, text, ha="center", va="center", fontsize=6, weight=weight, color="white" if dark else "black"
-            )
+            is_dark = abs(np.log(shown[row, column])) > np.log(LIMIT) * 0.7
+            look: dict[str, Any] = {
+                "weight": "bold" if verdict == REPRODUCED else "normal",
+                "color": "white" if is_dark else BLACK,
+            }
+            axes.text(column, row, _short(ratio), ha="center", va="center", fontsize=6, **look)
     axes.set_xticks(range(len(columns)), [METRICS[metric] for _, metric in columns], fontsize=6.5)
     for place, subset in enumerate(dict.fromkeys(subset for subset, _ in columns)):
         axes.text(4 * place + 1.5, -0.6, subset, ha="center", va="bottom", fontsize=8)

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
+from softkin.bounds import read_bounds
 from softkin.datasets.table import read_subset
-from softkin.interface import TRAIN, Array, DatasetResults, coordinate_columns, informative_coordinates
+from softkin.interface import TEST, TRAIN, Array, DatasetResults, coordinate_columns, informative_coordinates
 from softkin.metrics.point import euclidean_errors
 
 Run = tuple[str, str]
@@ -56,6 +57,13 @@ def predicted(results: DatasetResults, run: Run, subset: str, columns: list[str]
     """What the run predicts of these coordinates on a subset, (n_rows, n_columns); mm."""
     frame = pd.read_parquet(results.predictions[run], columns=columns, filters=[("subset", "==", subset)])
     return np.ascontiguousarray(frame.to_numpy(np.float64))
+
+
+def bounds(results: DatasetResults, method: str, run: Run, confidence_level: float) -> Array | None:
+    """Intervals on `test`, (n_rows, n_coordinates, 2) in mm; None when the method has none around this run."""
+    mine = [("model", "==", run[0]), ("preset", "==", run[1]), ("subset", "==", TEST)]
+    stored = pd.read_parquet(results.intervals[method], filters=mine)
+    return None if stored.empty else np.asarray(read_bounds(stored, TEST, [confidence_level])[0])
 
 
 def mean_marker_errors(results: DatasetResults, run: Run, subset: str) -> Array:

@@ -55,13 +55,10 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
         _draw(axis, rows)
         axis.set_ylabel(f"{subset}\npredicted - true (mm)")
     axes[1][0].set_xlabel("marker, counted from the base")
-    samples = [
-        sample(f"{axis} axis", color=colour, linewidth=6, alpha=0.7) for axis, colour in AXIS_COLOURS.items()
-    ]
+    samples = [sample(f"{axis} axis", color=colour, linewidth=6, alpha=0.7) for axis, colour in AXIS_COLOURS.items()]
     legend_below(figure, samples, 3)
     first = frame.iloc[0]
-    title = f"{results.model_titles[first['model']]}, {first['preset']}"
-    heading(figure, results, f"residuals of {title}")
+    heading(figure, results, f"residuals of {first['model']} {first['preset']}")
     return figure
 
 

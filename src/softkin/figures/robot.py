@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pandas as pd
 
-from softkin.bounds import read_bounds
 from softkin.datasets.table import read_subset
-from softkin.figures.reading import chosen, predicted, shown_coordinate
-from softkin.figures.style import BLACK, LIGHT, LOOKS, PAGE, SKY, blank, heading, legend_below, sample
+from softkin.figures.reading import bounds, chosen, predicted, shown_coordinate
+from softkin.figures.style import BLACK, LEAST_MM, LIGHT, LOOKS, PAGE, SKY, blank, heading, legend_below, sample
 from softkin.interface import TEST, Array, DatasetResults, FigureSpec, coordinate_columns
 
 if TYPE_CHECKING:
@@ -19,6 +18,7 @@ if TYPE_CHECKING:
 
 #: Poses from the least to the furthest reached position of the coordinate that moves furthest.
 PLACES = (0.02, 0.35, 0.65, 0.98)
+HEIGHT = 4.4
 UNITS = {"mm": 1.0, "µm": 1e3, "nm": 1e6, "pm": 1e9}
 #: A pose in space, and the edges between two corners of a box that differ in one coordinate.
 CORNERS = list(product((0, 1), repeat=3))
@@ -37,13 +37,12 @@ def frame(results: DatasetResults) -> pd.DataFrame:
     true = read_subset(results.table, TEST).positions
     n_markers = true.shape[1] // 3
     mine = predicted(results, best.run, TEST, coordinate_columns(n_markers))
-    stored = pd.read_parquet(results.intervals[best.interval_method])
-    stored = stored[(stored["model"] == best.model) & (stored["preset"] == best.preset)]
-    bounds = read_bounds(stored, TEST, [best.confidence_level])[0]
+    box = bounds(results, best.interval_method, best.run, best.confidence_level)
+    assert box is not None  # a candidate has intervals
     order = np.argsort(true[:, shown_coordinate(results)[0]], kind="stable")
     pose = np.zeros(len(true), dtype=int)
     pose[order[[int(place * (len(true) - 1)) for place in PLACES]]] = np.arange(len(PLACES)) + 1
-    named = {"true": true, "predicted": mine, "lower": bounds[..., 0], "upper": bounds[..., 1]}
+    named = {"true": true, "predicted": mine, "lower": box[..., 0], "upper": box[..., 1]}
     columns = {f"{name}_{axis}": array[:, i::3].ravel() for name, array in named.items() for i, axis in enumerate(AXES)}
     key = {"pose": np.repeat(pose, n_markers), "marker": np.tile(np.arange(n_markers) + 1, len(true))}
     table = pd.DataFrame(key | columns)
@@ -54,15 +53,18 @@ def frame(results: DatasetResults) -> pd.DataFrame:
 def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     """Left the whole robot; right, for each pose, the marker that moves furthest, seen from its predicted position."""
     first = frame.iloc[0]
-    figure = blank(PAGE, 4.4)
+    figure = blank(PAGE, HEIGHT)
     figure.set_layout_engine("none")  # it knows nothing of labels in space
-    whole: Any = figure.add_subplot(projection="3d", position=(0.0, 0.1, 0.45, 0.82))
     marker = int(shown_coordinate(results)[0] // 3 + 1)
+    heading(figure, results, f"poses of test, marker m{marker} close up")
+    n_more_lines = figure.get_suptitle().count("\n")
+    free = 0.85 - 0.17 * n_more_lines / HEIGHT
+    whole: Any = figure.add_subplot(projection="3d", position=(0.01, 0.09, 0.43, free))
     _robot(whole, frame, marker)
     shown = frame[(frame["marker"] == marker) & (frame["pose"] > 0)].sort_values("pose")
     unit, factor = _unit(shown)
     for place, row in enumerate(shown.itertuples()):
-        position = (0.46 + 0.255 * (place % 2), 0.51 - 0.415 * (place // 2), 0.25, 0.39)
+        position = (0.46 + 0.255 * (place % 2), 0.09 + free * (0.5 - 0.5 * (place // 2)), 0.25, 0.47 * free)
         axes: Any = figure.add_subplot(projection="3d", position=position)
         is_covered = _tip(axes, row, unit, factor)
         axes.set_title(f"pose {row.pose}, {'covered' if is_covered else 'missed'}", fontsize=8, y=0.97)
@@ -76,7 +78,6 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
         sample(f"{first['confidence_level']:.0%} intervals ({method})", color=SKY, linewidth=2),
     ]
     legend_below(figure, samples, 3)
-    heading(figure, results, f"poses of test, and marker m{marker} as seen from its predicted position")
     return figure
 
 
@@ -91,9 +92,9 @@ def _robot(axes: Any, frame: pd.DataFrame, marker: int) -> None:
         for corners in _boxes(rows):
             axes.add_collection3d(_box(corners))
         tip = rows[rows["marker"] == marker].iloc[0]
-        axes.text(*(tip[f"true_{axis}"] for axis in AXES), f" {pose}", fontsize=9)
+        axes.text(*(tip[f"true_{axis}"] for axis in AXES), f"  {pose}", fontsize=9, va="bottom")
     ranges = np.array([np.ptp(frame[f"true_{axis}"]) for axis in AXES])
-    axes.set_box_aspect(np.maximum(ranges, 0.4 * ranges.max()), zoom=0.85)
+    axes.set_box_aspect(np.maximum(ranges, 0.4 * ranges.max()), zoom=0.8)
     _label(axes, [f"{axis} (mm)" for axis in AXES])
 
 
@@ -110,9 +111,9 @@ def _tip(axes: Any, row: Any, unit: str, factor: float) -> bool:
     axes.plot(*true[:, None], "o", color=BLACK, markersize=4)
     axes.plot([0], [0], [0], mark, color=colour, markersize=4)
     ends = np.stack([true, np.zeros(3), *(end for end in (lower, upper) if np.isfinite(end).all())])
-    reach = 1.1 * np.maximum(np.abs(ends).max(axis=0), 1e-3 * np.abs(ends).max())
+    reach = 1.1 * np.maximum(np.abs(ends).max(axis=0), 1e-3 * np.abs(ends).max() + LEAST_MM)
     axes.set(xlim=(-reach[0], reach[0]), ylim=(-reach[1], reach[1]), zlim=(-reach[2], reach[2]))
-    axes.set_box_aspect((1, 1, 1), zoom=0.78)
+    axes.set_box_aspect((1, 1, 1), zoom=0.75)
     _label(axes, [f"{axis} ({unit})" for axis in AXES])
     return bool(((lower <= true) & (true <= upper)).all())
 
@@ -123,9 +124,9 @@ def _label(axes: Any, labels: list[str]) -> None:
     for name, label in zip(AXES, labels, strict=True):
         axis = getattr(axes, f"{name}axis")
         axis.set_major_locator(MaxNLocator(3))
-        axis.set_tick_params(labelsize=6.5, pad=-1)
+        axis.set_tick_params(labelsize=6.5, pad={"x": -2, "y": 0, "z": 2}[name])
         axis.set_label_text(label, fontsize=7.5)
-        axis.labelpad = -4
+        axis.labelpad = {"x": -5, "y": -2, "z": 0}[name]
 
 
 def _unit(rows: pd.DataFrame) -> tuple[str, float]:

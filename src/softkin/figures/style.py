@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
@@ -27,9 +27,7 @@ SUBSET_COLOURS = {TRAIN: GREY, VALIDATION: GREEN, TEST: BLUE, EXTRAPOLATION: VER
 
 #: Tol's muted scheme (personal.sron.nl/~pault), black being the truth; with a mark of its own each model is told apart
 #: in grey, too. Nine colours and ten marks: no two of ninety models look alike.
-MODEL_COLOURS = (
-    *("#CC6677", "#332288", "#DDCC77", "#117733", "#88CCEE", "#882255", "#44AA99", "#999933", "#AA4499"),
-)
+MODEL_COLOURS = (*("#CC6677", "#332288", "#DDCC77", "#117733", "#88CCEE", "#882255", "#44AA99", "#999933", "#AA4499"),)
 MODEL_MARKS = "os^DvPX*<>"
 #: (colour, mark) by the place in the registries, whatever is configured: the same in every figure of every run.
 LOOKS = {
@@ -37,6 +35,8 @@ LOOKS = {
     for place, name in enumerate(dict.fromkeys([*MODELS, *QUANTILE_MODELS]))
 }
 
+#: Nothing smaller is told apart on a logarithmic axis, mm: some models repeat their training rows exactly.
+LEAST_MM = 1e-9
 #: Inches: the text of a figure this wide keeps its size on a page.
 PAGE = 7.2
 
@@ -78,22 +78,21 @@ def panels(n_rows: int, n_columns: int, width: float, height: float, **options: 
     return figure, [list(row) for row in axes]
 
 
-def heading(figure: Figure, results: DatasetResults, text: str) -> None:
-    """Title above all panels, and below it what a reader of this dataset must know: a leak, for instance."""
+def heading(figure: Figure, results: DatasetResults, text: str, shows: Collection[str] = (TEST, EXTRAPOLATION)) -> None:
+    """Title above all panels, and below it what a reader of the subsets it `shows` must know: a leak, for instance."""
     width = int(10.5 * figure.get_figwidth())
-    notes = [f"{subset}: {note}" for subset, note in results.notes.items()]
+    notes = [f"{subset}: {note}" for subset, note in results.notes.items() if subset in shows]
     lines = [fill(line, width) for line in (f"{results.title}: {text}", *notes)]
     figure.suptitle("\n".join(lines), fontsize=9 if notes else 10)
 
 
-def logarithmic(axis: Axis) -> None:
-    """A logarithmic axis with plain numbers on it, once everything is drawn: few decades get more of them."""
+def logarithmic(axis: Axis, most_numbers: int = 8) -> None:
+    """Plain numbers on a logarithmic axis on which everything is drawn: few decades get more of them."""
     from matplotlib.ticker import FormatStrFormatter, LogFormatterSciNotation, LogLocator, NullFormatter
 
-    axis.axes.set(**{f"{axis.axis_name}scale": "log"})
     low, high = axis.get_view_interval()
     decades = np.log10(high / low)
-    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if decades < 2 else (1.0,), numticks=8))
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if decades < 2 else (1.0,), numticks=most_numbers))
     plain = decades < 5 and low > 1e-4
     axis.set_major_formatter(FormatStrFormatter("%g") if plain else LogFormatterSciNotation())
     axis.set_minor_formatter(NullFormatter())

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import pandas as pd
 
 from softkin.figures.style import LOOKS, PAGE, heading, logarithmic, model_samples, panels
-from softkin.interface import TUNED, DatasetResults, FigureSpec
+from softkin.interface import TRAIN, TUNED, DatasetResults, FigureSpec
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -38,7 +38,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     axes.set_ylabel("cross-validated mean absolute error\non train (mm)")
     samples = model_samples(frame["model"].unique(), results)
     figure.legend(handles=samples, loc="outside right center", frameon=False)
-    heading(figure, results, "tuning, the best trial so far")
+    heading(figure, results, "tuning, the best trial so far", [TRAIN])
     return figure
 
 

@@ -7,10 +7,21 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from softkin.bounds import read_bounds
 from softkin.datasets.table import read_subset
-from softkin.figures.reading import candidates, shown_coordinate
-from softkin.figures.style import BLACK, BLUE, GREY, PAGE, VERMILION, heading, legend_below, logarithmic, panels, sample
+from softkin.figures.reading import bounds, candidates, shown_coordinate
+from softkin.figures.style import (
+    BLACK,
+    BLUE,
+    GREY,
+    LEAST_MM,
+    PAGE,
+    VERMILION,
+    heading,
+    legend_below,
+    logarithmic,
+    panels,
+    sample,
+)
 from softkin.interface import TEST, DatasetResults, FigureSpec
 
 if TYPE_CHECKING:
@@ -22,17 +33,19 @@ N_PARTS = 5
 
 
 def frame(results: DatasetResults) -> pd.DataFrame:
-    """Columns model, preset, interval_method, title, coordinate, confidence_level, half_width_mm, error_mm, covered: a
-    row per row of `test`, of the coordinate that moves furthest on `train`, for the chosen interval and the three next
-    best candidates whose width is not the same on every row; rows without a finite interval are left out. `error_mm` is the distance of the true position from the interval's middle.
+    """Columns model, preset, interval_method, title, coordinate, confidence_level, half_width_mm, error_mm, covered.
+
+    A row per row of `test`, of the coordinate that moves furthest on `train`, for the chosen interval and the three
+    next best candidates whose width is not the same on every row; rows without a finite interval are left out.
+    `error_mm` is the distance of the true position from the interval's middle.
     """
     coordinate, name = shown_coordinate(results)
     true = read_subset(results.table, TEST).positions[:, coordinate]
     parts: list[pd.DataFrame] = []
     for row in candidates(results).itertuples():
-        stored = pd.read_parquet(results.intervals[row.interval_method])
-        mine = stored[(stored["model"] == row.model) & (stored["preset"] == row.preset)]
-        lower, upper = read_bounds(mine, TEST, [row.confidence_level])[0, :, coordinate].T
+        found = bounds(results, row.interval_method, (row.model, row.preset), row.confidence_level)
+        assert found is not None  # a candidate has intervals
+        lower, upper = found[:, coordinate].T
         part = pd.DataFrame({"half_width_mm": (upper - lower) / 2, "error_mm": np.abs(true - (lower + upper) / 2)})
         part["covered"] = (lower <= true) & (true <= upper)
         part = part[np.isfinite(part["half_width_mm"])]
@@ -52,14 +65,14 @@ def _is_constant(part: pd.DataFrame) -> bool:
 
 def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     """A panel for each method, log-log."""
+    frame = frame.assign(**frame[["half_width_mm", "error_mm"]].clip(lower=LEAST_MM))
     groups = list(frame.groupby("title", sort=False))
     figure, axes = panels(1, len(groups), PAGE, 3.2, sharex=True, sharey=True)
-    positive = frame.loc[frame["error_mm"] > 0, "error_mm"]
     for axis, (title, rows) in zip(axes[0], groups, strict=True):
-        _draw(axis, rows, float(positive.min()))
+        _draw(axis, rows)
         axis.set_title(str(title), fontsize=8)
         axis.set_xlabel("half width (mm)")
-    logarithmic(axes[0][0].xaxis)
+    logarithmic(axes[0][0].xaxis, 4)
     logarithmic(axes[0][0].yaxis)
     axes[0][0].set_ylabel("distance of the truth from\nthe interval's middle (mm)")
     samples = [
@@ -70,17 +83,15 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     ]
     legend_below(figure, samples, 4)
     first = frame.iloc[0]
-    heading(figure, results, f"{first['confidence_level']:.0%} intervals of {first['coordinate']}, width against error")
+    heading(figure, results, f"{first['confidence_level']:.0%} intervals of {first['coordinate']}, width and error")
     return figure
 
 
-def _draw(axes: Axes, rows: pd.DataFrame, least: float) -> None:
+def _draw(axes: Axes, rows: pd.DataFrame) -> None:
     level = rows["confidence_level"].iloc[0]
     for inside, colour in ((True, BLUE), (False, VERMILION)):
         part = rows[rows["covered"] == inside]
-        axes.loglog(
-            part["half_width_mm"], part["error_mm"].clip(lower=least), ".", color=colour, markersize=2.5, rasterized=True
-        )
+        axes.loglog(part["half_width_mm"], part["error_mm"], ".", color=colour, markersize=2.5, rasterized=True)
     low, high = rows["half_width_mm"].agg(["min", "max"])
     axes.plot([low, high], [low, high], color=GREY, linewidth=0.8, linestyle="--")
     if _is_constant(rows):

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from itertools import combinations
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
 
 from softkin.datasets.table import read_subset
 from softkin.figures.reading import chosen, mean_marker_errors
-from softkin.figures.style import BLACK, PAGE, heading, legend_below, logarithmic, panels, sample
+from softkin.figures.style import BLACK, LEAST_MM, PAGE, heading, legend_below, logarithmic, panels, sample
 from softkin.interface import EXTRAPOLATION, TEST, TRAIN, DatasetResults, FigureSpec, command_columns
 
 if TYPE_CHECKING:
@@ -70,8 +70,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     ]
     legend_below(figure, samples, 3)
     first = frame.iloc[0]
-    title = f"{results.model_titles[first['model']]}, {first['preset']}"
-    heading(figure, results, f"error of {title}, over command space")
+    heading(figure, results, f"error of {first['model']} {first['preset']} by command")
     return figure
 
 
@@ -82,19 +81,18 @@ def _draw(axes: Axes, frame: pd.DataFrame, across: str, up: str) -> PathCollecti
     for name, line in ((across, axes.axvline), (up, axes.axhline)):
         for end in [train[name].min(), train[name].max()] if name != ERROR else []:
             line(end, color=BLACK, linewidth=0.8, linestyle="--")
-    errors = frame[ERROR][frame[ERROR] > 0]
+    errors = frame[ERROR].dropna().clip(lower=LEAST_MM)
     norm = LogNorm(*errors.quantile([0.02, 0.98]))
     for subset, mark in ((EXTRAPOLATION, "^"), (TEST, "o")):
         # The worst rows come last, on top.
         rows = frame[frame["subset"] == subset].sort_values(ERROR, kind="stable")
-        colours = rows[ERROR].clip(lower=errors.min())
-        drawn = axes.scatter(
-            rows[across], rows[up], c=colours, norm=norm, marker=mark, s=9, cmap="viridis_r", linewidths=0, rasterized=True
-        )
+        look: dict[str, Any] = {"marker": mark, "s": 9, "cmap": "viridis_r", "linewidths": 0, "rasterized": True}
+        drawn = axes.scatter(rows[across], rows[up], c=rows[ERROR].clip(lower=LEAST_MM), norm=norm, **look)
     axes.locator_params(nbins=4)
     axes.set_xlabel(f"{across} (the data's unit)")
     axes.set_ylabel("mean marker error (mm)" if up == ERROR else f"{up} (the data's unit)")
     if up == ERROR:
+        axes.set_yscale("log")
         logarithmic(axes.yaxis)
     return drawn
 
