@@ -32,11 +32,11 @@ FLOORS = [
 GATHERERS = {"datasets/__init__.py", "datasets/preparing.py", "models/__init__.py", "tables/build.py"}
 GATHERERS |= {"intervals/__init__.py", "quantile_models/__init__.py", "tables/published_intervals.py"}
 GATHERERS |= {"regions/__init__.py", "regions/ellipsoids.py"}
-#: All figures have one style.
-GATHERERS |= {f"figures/{name}.py" for name in ("__init__", "drawing", "intervals", "conditional_coverage")}
 GATHERERS |= {"tables/headline.py", "tracking/__init__.py", "tracking/models.py", "tracking/intervals.py"}
 
 FIGURES = {module.as_posix() for module in MODULES if module.parts[0] == "figures"}
+#: All figures have one style, and read their data alike.
+GATHERERS |= FIGURES
 
 
 def imports(path: Path) -> set[str]:
