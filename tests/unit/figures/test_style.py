@@ -30,7 +30,7 @@ def test_colours_of_models_can_be_told_apart_without_red_or_green() -> None:
     for matrix in seen_as.values():
         seen = np.clip(linear @ np.array(matrix).T, 0, 1) ** (1 / 2.2)
         apart = [np.linalg.norm(a - b) for a, b in itertools.combinations(seen, 2)]
-        assert min(apart) > 0.07
+        assert min(apart) > 0.1  # matplotlib's own ten fail
 
 
 @pytest.mark.parametrize(("values", "shown"), [([1.2, 7.0], {"2", "5"}), ([1e-7, 1.0], {"$\\mathdefault{10^{-5}}$"})])
