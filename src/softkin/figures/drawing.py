@@ -31,7 +31,8 @@ def shrink(picture: Path) -> None:
 def draw(figures: Mapping[str, FigureSpec[Results]], results: Results, folder: Path) -> None:
     """Write {name}.png, .svg and .csv of each figure into `folder`, and index.csv: which run each of them shows.
 
-    A figure whose methods or models were not run has no rows, and is left out with a line in the log.
+    A figure whose methods or models were not run, or with too few trials, has no rows, and is left out with a line in
+    the log.
     """
     import matplotlib as mpl
 
@@ -40,7 +41,7 @@ def draw(figures: Mapping[str, FigureSpec[Results]], results: Results, folder: P
     for name, spec in figures.items():
         frame = spec.frame(results)
         if frame.empty:
-            logger.info("no %s: nothing of it was run", name)
+            logger.info("no %s: nothing of it was run, or too little", name)
             continue
         frame.to_csv(folder / f"{name}.csv", index=False)
         with mpl.rc_context(SETTINGS):
