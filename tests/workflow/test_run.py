@@ -142,26 +142,20 @@ def test_editing_a_model_reruns_its_jobs_and_no_others(house: House) -> None:
     per_model = {job for job in jobs if job[0] in ("tune", "fit_paper", "fit_tuned", "predict")}
     assert {rule for rule, _ in per_model} == {"tune", "fit_paper", "fit_tuned", "predict"}
     assert all("model=svr" in wildcards for _, wildcards in per_model)
-    assert {rule for rule, _ in jobs} - {"tune", "fit_paper", "fit_tuned", "predict"} <= {
-        "score",
-        "figures",
-        "tables",
-        "track",
-    }
+    assert {rule for rule, _ in jobs} - {"tune", "fit_paper", "fit_tuned", "predict"} <= {"score", "tables", "track"}
     assert house.jobs() == []
 
 
 @pytest.mark.parametrize(
     ("module", "rules"),
     [
-        ("metrics/point.py", {"score", "figures", "tables", "track"}),
+        ("metrics/point.py", {"score", "tables", "track"}),
         ("tables/published.py", {"tables"}),
         ("tracking/store.py", {"track"}),
-        ("intervals/split_conformal_crepes.py", {"intervals", "score_intervals", "figures", "tables", "track"}),
-        ("regions/balls.py", {"score_intervals", "figures", "tables", "track"}),
-        ("refitting.py", {"refit", "intervals", "score_intervals", "figures", "tables", "track"}),
-        ("metrics/interval.py", {"score_intervals", "figures", "tables", "track"}),
-        ("figures/ranking.py", {"figures", "track"}),
+        ("intervals/split_conformal_crepes.py", {"intervals", "score_intervals", "tables", "track"}),
+        ("regions/balls.py", {"score_intervals", "tables", "track"}),
+        ("refitting.py", {"refit", "intervals", "score_intervals", "tables", "track"}),
+        ("metrics/interval.py", {"score_intervals", "tables", "track"}),
     ],
 )
 def test_editing_a_later_stage_refits_nothing(house: House, module: str, rules: set[str]) -> None:

@@ -44,7 +44,8 @@ def plot(frame: pd.DataFrame, results: CampaignResults) -> Figure:
 
     datasets, presets = list(frame["dataset"].unique()), list(frame["preset"].unique())
     models = [name for name in results.model_titles if name in set(frame["model"])]
-    notes = frame[frame["note"] != ""].drop_duplicates(["dataset", "note"])
+    noted = frame[frame["note"] != ""].groupby(["dataset", "note"], sort=False)["subset"]
+    notes = {key: " and ".join(subsets.unique()) for key, subsets in noted}
     height = 1.3 + len(datasets) * (0.6 + 0.24 * len(models)) + 0.3 * len(notes)
     figure, axes = panels(len(datasets), len(presets), PAGE, height, sharey=True)
     norm = LogNorm(1 / LIMIT, LIMIT)
@@ -67,8 +68,7 @@ def plot(frame: pd.DataFrame, results: CampaignResults) -> Figure:
         format="%g",
         extend="both",
     ).minorticks_off()
-    remarks = [f"* {row.subset}, {row.dataset}: {row.note}" for row in notes.itertuples()]
-    lines = [fill(remark, 125) for remark in remarks]
+    lines = [fill(f"* {dataset}, {subsets}: {note}", 100) for (dataset, note), subsets in notes.items()]
     figure.suptitle("\n".join(["The paper's Tables 3 to 5 against ours, cell by cell", *lines]), fontsize=8.5)
     return figure
 

@@ -45,7 +45,7 @@ def test_it_is_drawn_with_its_notes(campaign: CampaignResults, tmp_path: Path) -
     draw(CAMPAIGN_FIGURES, campaign, tmp_path / "figures")
     with Image.open(tmp_path / "figures" / "published.png") as image:
         assert image.width > 1000
-    assert "* test, arm: a copy of train" in (tmp_path / "figures" / "published.svg").read_text()
+    assert "* arm, test: a copy of train" in (tmp_path / "figures" / "published.svg").read_text()
     assert len(pd.read_csv(tmp_path / "figures" / "index.csv")) == 4
 
 
