@@ -4,7 +4,7 @@ CORES ?= 2
 BIN := .venv/bin
 export MLFLOW_DISABLE_TELEMETRY := true
 
-.PHONY: run unlock test test-run lint ui store campaigns benchmark coverage environment clean
+.PHONY: run unlock new-robot test test-run lint ui store campaigns benchmark coverage standins environment clean
 
 run: .venv/installed
 	$(BIN)/snakemake --cores $(CORES)
@@ -12,6 +12,10 @@ run: .venv/installed
 # After a kill -9 or a power cut, when no other run is going on: `make unlock run`.
 unlock: .venv/installed
 	$(BIN)/snakemake --unlock
+
+# A robot of your own: make new-robot FILE=arm.csv shows a guess of its entry, with WRITE=1 config/datasets.yaml gets it.
+new-robot: .venv/installed
+	@$(BIN)/python -m softkin.new_robot "$(FILE)" $(if $(NAME),--name "$(NAME)") $(if $(WRITE),--write)
 
 test: .venv/installed
 	$(BIN)/pytest -m "not slow"
@@ -44,6 +48,10 @@ benchmark: .venv/installed
 # Whether intervals cover what they say, over random re-splits of a finished run.
 coverage: .venv/installed
 	$(BIN)/python benchmarks/coverage.py
+
+# How long the stand-ins of all datasets take to simulate.
+standins: .venv/installed
+	$(BIN)/python benchmarks/standins.py
 
 # Pin every dependency anew.
 environment: .venv/installed

@@ -1,7 +1,8 @@
 # softkin: from published data to a calibrated forward kinematics. `snakemake --cores 2` is all it takes.
 #
-#     retrieve -> prepare -> tune -> fit -> predict -> score -> tables
-#                        \-> quantiles -\-> intervals -> score /  \-> track (MLflow)
+#     retrieve -> prepare -> tune -> fit -> predict -> score -> tables -> report
+#                    |         |       \-> refit -\-> intervals -> score, figures -> track (MLflow)
+#                    \-> audit \-> tune and fit quantiles -/
 from pathlib import Path
 
 from snakemake.utils import min_version
@@ -16,6 +17,7 @@ configfile: Path(workflow.basedir) / "config" / "datasets.yaml"
 include: "workflow/rules/common.smk"
 include: "workflow/rules/retrieve.smk"
 include: "workflow/rules/prepare.smk"
+include: "workflow/rules/audit.smk"
 include: "workflow/rules/tune.smk"
 include: "workflow/rules/fit.smk"
 include: "workflow/rules/predict.smk"
@@ -33,6 +35,15 @@ rule all:
         final_output(),
 
 
+onstart:
+    warn_of_stand_ins()
+
+
 onsuccess:
     if Path(HEADLINE).exists():  # a run for a single file has none
         print(Path(HEADLINE).read_text(encoding="utf-8"))
+    warn_of_stand_ins()
+
+
+onerror:
+    warn_of_stand_ins()

@@ -116,7 +116,7 @@ def main() -> int:
     bad = 0
     head = f"{'dataset':<18}{'method':<20}{'around':<12}{'level':>6}{'expected':>10}"
     print(f"{head}{'lowest':>9}{'errors':>8}{'highest':>9}{'errors':>8}")
-    for folder in sorted(path.parent for path in options.results.glob("*/interval_choice.csv")):
+    for folder in sorted(path.parent for path in options.results.glob("*/table.parquet")):
         if options.datasets and folder.name not in options.datasets:
             continue
         for name, run, rank_of, n, shares in coverages(folder, options.splits, options.seed):

@@ -17,15 +17,31 @@ import tempfile
 import time
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 
 HOUSE = Path(__file__).resolve().parent.parent
+INTERVAL_RULES = ("tune_quantiles", "quantiles", "refit", "intervals", "score_intervals")
 
 
 def fit_cpu_seconds(results: Path) -> float:
-    """CPU seconds that went into trials and fits."""
-    trials = sum(json.loads(path.read_text())["cpu_seconds"] for path in results.glob("*/*/tuned/parameters.json"))
-    return trials + sum(json.loads(path.read_text())["fit_cpu_seconds"] for path in results.glob("*/**/fit.json"))
+    """CPU seconds that went into trials, fits and refits."""
+    trials = sum(json.loads(path.read_text())["cpu_seconds"] for path in results.glob("**/tuned/parameters.json"))
+    fits = sum(json.loads(path.read_text())["fit_cpu_seconds"] for path in results.glob("**/fit.json"))
+    refits = 0.0
+    for path in results.glob("*/refits.npz"):
+        with np.load(path) as archive:
+            refits += float(archive["fit_cpu_seconds"])
+    return trials + fits + refits
+
+
+def interval_share(benchmarks: Path) -> float:
+    """CPU seconds of the interval rules over those of all other rules that are benchmarked."""
+    seconds = {True: 0.0, False: 0.0}
+    for path in benchmarks.rglob("*.tsv"):
+        rule = path.relative_to(benchmarks).parts[0]
+        seconds[rule in INTERVAL_RULES] += float(pd.read_csv(path, sep="\t")["cpu_time"].iloc[0])
+    return seconds[True] / seconds[False]
 
 
 def slowest_jobs(benchmarks: Path, count: int = 10) -> pd.DataFrame:
@@ -58,6 +74,8 @@ def main() -> None:
         cpu = fit_cpu_seconds(Path(folder) / "results")
         print(f"wall {wall:.0f} s on {options.cores} cores; a second run, with nothing to do, {again:.1f} s")
         print(f"CPU of fits {cpu:.0f} s; share of the machine {cpu / (options.cores * wall):.3f}")
+        added = interval_share(Path(folder) / "results" / "benchmarks")
+        print(f"interval work adds {added:.1%} to the CPU time of the other benchmarked rules")
         print(slowest_jobs(Path(folder) / "results" / "benchmarks").to_string(index=False))
 
 

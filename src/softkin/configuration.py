@@ -16,7 +16,7 @@ from softkin.interface import SoftkinError
 
 def check_configuration(config: Mapping[str, Any], schema: str | Path, registries: Mapping[str, Iterable[str]]) -> None:
     """Check `config` against the YAML `schema`, and the names in it against the `registries`: of models,
-    formats, interval methods, regions and learners of quantiles.
+    formats, interval methods, regions, learners of quantiles and simulated robots.
 
     Raises:
         SoftkinError: lists every problem: the key, what is wrong, and for an unknown key its likely spelling.
@@ -37,6 +37,9 @@ def _unknown_names(config: Mapping[str, Any], registries: Mapping[str, Iterable[
         ("interval_methods", "known method", name, registries["interval_methods"])
         for name in config["interval_methods"]
     ]
+    names += [
+        ("max_fit_rows", "model of the registry", model, registries["models"]) for model in config["max_fit_rows"]
+    ]
     names += [("regions", "known region", name, registries["regions"]) for name in config["regions"]]
     names += [
         ("quantile_models", "known learner", name, registries["quantile_models"]) for name in config["quantile_models"]
@@ -44,6 +47,10 @@ def _unknown_names(config: Mapping[str, Any], registries: Mapping[str, Iterable[
     for dataset, source in sources.items():
         place = f"sources.{dataset}"
         names.append((f"{place}.format", "known format", source["format"], registries["formats"]))
+        if "standin" in source:
+            names.append(
+                (f"{place}.standin.robot", "simulated robot", source["standin"]["robot"], registries["standins"])
+            )
         names += [
             (f"{place}.paper_params", "model of the registry", model, registries["models"])
             for model in source.get("paper_params", {})

@@ -54,6 +54,15 @@ def fit_quietly(estimator: Any, samples: Samples, threads: int) -> int:
     return len(stopped)
 
 
+def some_rows(samples: Samples, max_rows: int | None, seed: int) -> Samples:
+    """At most `max_rows` rows, drawn without replacement, in their order; all where it is None."""
+    if max_rows is None or len(samples) <= max_rows:
+        return samples
+    logger.warning("fitted on %d of %d rows: max_fit_rows", max_rows, len(samples))
+    rows = np.sort(np.random.default_rng(seed).choice(len(samples), max_rows, replace=False))
+    return Samples(samples.commands[rows], samples.positions[rows])
+
+
 def fit(
     table: str | Path,
     *,
@@ -64,9 +73,13 @@ def fit(
     threads: int,
     model: str | Path,
     record: str | Path,
+    max_rows: int | None = None,
 ) -> None:
-    """Fit on `train` of `table`; write the fitted `model` (joblib) and a `record` (JSON) of what it took."""
-    samples = read_subset(table, TRAIN)
+    """Fit on `train` of `table`; write the fitted `model` (joblib) and a `record` (JSON) of what it took.
+
+    `max_rows` bounds the rows of a model that cannot take more: the rest is left out at random, and the log says so.
+    """
+    samples = some_rows(read_subset(table, TRAIN), max_rows, seed)
     estimator = kinematic_model(spec, params, skip_constant=skip_constant, seed=seed, threads=threads)
     with stopwatch() as watch:
         stopped = fit_quietly(estimator, samples, threads)

@@ -15,6 +15,7 @@ from softkin.files import read_json, replacing
 from softkin.fitting import fit_quietly, kinematic_model
 from softkin.folds import grouped_folds
 from softkin.interface import EXTRAPOLATION, TEST, TRAIN, Array, ModelSpec, Samples, SoftkinError
+from softkin.job import stopwatch
 
 logger = logging.getLogger("softkin")
 
@@ -46,7 +47,8 @@ def refit(
     """Write `refits` (NumPy archive), in mm, with rows of train, test and extrapolation, in this order:
 
     `{model}/{preset}/folds` (n_folds, n_rows, n_coordinates), `{model}/{preset}/resamples` (n_resamples, n_rows,
-    n_coordinates), and of all runs `fold_of_row` (n_train,), `resample_rows` (n_resamples, n_train).
+    n_coordinates), and of all runs `fold_of_row` (n_train,), `resample_rows` (n_resamples, n_train) and
+    `fit_cpu_seconds`.
 
     `records` are the runs' fit records: each is refitted with the parameters it was fitted with.
     """
@@ -68,6 +70,7 @@ def refit(
         for place, (_, outside) in enumerate(folds):
             arrays["fold_of_row"][outside] = place
         arrays["resample_rows"] = np.stack(resamples)
+    cpu_seconds = 0.0
     for place, (run, spec) in enumerate(specs.items()):
         record = read_json(records[run])
         for kind, rows in (("folds", [inside for inside, _ in folds]), ("resamples", resamples)):
@@ -80,10 +83,13 @@ def refit(
                     seed=settings.seed,
                     threads=threads,
                 )
-                fit_quietly(estimator, Samples(train.commands[inside], train.positions[inside]), threads)
+                with stopwatch() as watch:
+                    fit_quietly(estimator, Samples(train.commands[inside], train.positions[inside]), threads)
+                cpu_seconds += watch.cpu_seconds
                 predicted.append(estimator.predict(everywhere))
             arrays["/".join((*run, kind))] = np.stack(predicted)
         logger.info("%d of %d models refitted: %s", place + 1, len(specs), " ".join(run))
+    arrays["fit_cpu_seconds"] = np.array(cpu_seconds)
     with replacing(refits) as temporary, temporary.open("wb") as file:
         np.savez_compressed(file, **arrays)  # type: ignore[arg-type]
 

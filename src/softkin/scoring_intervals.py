@@ -121,8 +121,11 @@ def _rows(setting: _Setting, bounds: Array, crossings: NDArray[np.bool_], scores
         _check_winkler(setting, bounds, winkler)
     n_rows, n_coordinates = setting.true.shape
     bands = [_band(setting, int(count)) for count in inside.sum(axis=0)]
-    exact = setting.guarantee == MARGINAL
-    adjusted = holm(np.array([band["coverage_p_value"] for band in bands])) if exact else None
+    # Holm over the coordinates that move: a constant one says nothing, and must not weaken what the others say.
+    adjusted = np.full(n_coordinates, np.nan)
+    if setting.guarantee == MARGINAL:
+        p_values = np.array([band["coverage_p_value"] for band in bands])
+        adjusted[setting.informative] = holm(p_values[setting.informative])
     common = {"confidence_level": setting.level, "n_calibration": setting.n_calibration, "n_rows": n_rows}
 
     def averages(mask: Any) -> dict[str, Any]:
@@ -137,8 +140,7 @@ def _rows(setting: _Setting, bounds: Array, crossings: NDArray[np.bool_], scores
         }
 
     for i, name in enumerate(coordinate_columns(n_coordinates // 3)):
-        holm_adjusted = {"coverage_p_value_holm": np.nan if adjusted is None else adjusted[i]}
-        yield {**common, "coordinate": name, **averages(i), **bands[i], **holm_adjusted}
+        yield {**common, "coordinate": name, **averages(i), **bands[i], "coverage_p_value_holm": adjusted[i]}
     for name, mask in (("mean", np.ones(n_coordinates, bool)), ("mean_informative", setting.informative)):
         yield {**common, "coordinate": name, **averages(mask)}
     together = inside[:, setting.informative].all(axis=1)

@@ -20,7 +20,7 @@ from softkin.interface import (
     SoftkinError,
     informative_coordinates,
 )
-from softkin.metrics.interval import pinball_losses
+from softkin.metrics.pinball import pinball_losses
 from softkin.quantiles import QuantileModel
 from softkin.tuning import TuningSettings, tune
 

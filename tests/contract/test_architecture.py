@@ -21,17 +21,35 @@ MODULES = sorted(path.relative_to(SOURCE) for path in SOURCE.rglob("*.py"))
 #: Lower floors first; a module imports from floors below it, and within its own folder only where listed here.
 FLOORS = [
     {"interface", "__init__"},
-    {"files", "job", "conformal", "bounds", "folds"},
-    {"configuration", "datasets", "estimators", "models", "quantile_models", "intervals", "regions", "metrics"},
-    {"fitting", "quantiles", "tables"},
+    {"files", "job", "conformal", "bounds", "folds", "findings", "rows", "standins"},
+    {
+        "configuration",
+        "datasets",
+        "estimators",
+        "models",
+        "quantile_models",
+        "intervals",
+        "regions",
+        "metrics",
+        "smooth_fit",
+    },
+    {"fitting", "quantiles", "tables", "new_robot", "auditing"},
     {"scoring", "tuning", "tracking", "refitting", "evidence"},
     {"calibrating", "choosing_intervals", "tuning_quantiles", "scoring_regions"},
-    {"scoring_intervals", "conditional_coverage", "figures"},
+    {"scoring_intervals", "conditional_coverage", "figures", "calibrated_model"},
 ]
-#: A folder's __init__ is its registry, preparing is the one call of its stage, build gathers the tables.
+#: A folder's __init__ is its registry, preparing is the one call of its stage, table_file reads either kind of file,
+#: build gathers the tables.
 GATHERERS = {"datasets/__init__.py", "datasets/preparing.py", "models/__init__.py", "tables/build.py"}
+GATHERERS |= {"datasets/table_file.py"}
 GATHERERS |= {"intervals/__init__.py", "quantile_models/__init__.py", "tables/published_intervals.py"}
 GATHERERS |= {"regions/__init__.py", "regions/ellipsoids.py"}
+GATHERERS |= {"auditing/__init__.py", "auditing/data_card.py", "auditing/cleaning.py"}
+#: Simulated robots stand on one rod.
+GATHERERS |= {f"standins/{path.name}" for path in (SOURCE / "standins").glob("*.py")} - {
+    "standins/rod.py",
+    "standins/robot.py",
+}
 GATHERERS |= {"tables/headline.py", "tracking/__init__.py", "tracking/models.py", "tracking/intervals.py"}
 
 FIGURES = {module.as_posix() for module in MODULES if module.parts[0] == "figures"}

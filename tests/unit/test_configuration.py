@@ -14,6 +14,7 @@ from softkin.intervals import INTERVAL_METHODS
 from softkin.models import MODELS
 from softkin.quantile_models import QUANTILE_MODELS
 from softkin.regions import REGION_METHODS
+from softkin.standins import STANDINS
 from tests.conftest import HOUSE
 
 SCHEMA = HOUSE / "workflow" / "schemas" / "config.schema.yaml"
@@ -25,7 +26,7 @@ for name in ("config", "datasets"):
 def check(config: dict[str, Any]) -> None:
     registries: dict[str, Any] = {"models": MODELS, "formats": READERS}
     registries |= {"interval_methods": INTERVAL_METHODS, "quantile_models": QUANTILE_MODELS}
-    registries |= {"regions": REGION_METHODS}
+    registries |= {"regions": REGION_METHODS, "standins": STANDINS}
     check_configuration(config, SCHEMA, registries)
 
 
@@ -52,6 +53,9 @@ def test_the_shipped_configuration_is_good() -> None:
         (lambda c: c.update(quantile_models=["xbg"]), ["did you mean 'xgb'?"]),
         (lambda c: c.update(confidence_levels=[0.9, 0.8]), ["not ascending", "[0.8, 0.9]"]),
         (lambda c: c.update(confidence_levels=[90]), ["confidence_levels.0", "90"]),
+        (lambda c: c["max_fit_rows"].update(gpp=500), ["max_fit_rows: 'gpp'", "did you mean 'gp'?"]),
+        (lambda c: c.update(when_unreachable="simulat"), ["did you mean 'simulate'?"]),
+        (lambda c: c["sources"]["finger"]["standin"].update(robot="tendon_fingr"), ["did you mean 'tendon_finger'?"]),
         (lambda c: c["sources"]["finger"].update(sha256="abc"), ["sources.finger.sha256"]),
         (lambda c: c["sources"]["finger"].update(position_unit="inch"), ["sources.finger.position_unit", "mm"]),
         (lambda c: c["sources"]["finger"].update(format="kin_json"), ["did you mean 'kinn_json'?"]),
@@ -66,6 +70,65 @@ def test_a_mistake_is_named_with_its_mend(spoil: Callable[[dict[str, Any]], Any]
         check(config)
     for part in says:
         assert part in str(error.value)
+
+
+OWN: dict[str, Any] = {"title": "Arm", "format": "table_file", "file": "arm.csv", "position_unit": "mm"}
+OWN |= {"commands": "u[0-9]+", "positions": ["x", "y"], "split": {"method": "random"}}
+ALL_FOUR = {"train": 0, "validation": 1, "test": 2, "extrapolation": 3}
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {},
+        {"dimensions": 2, "delimiter": " ", "n_commands": 64, "n_markers": 1, "sha256": "0" * 64},
+        {"split": {"method": "column", "column": "part", "names": ALL_FOUR}},
+        {"split": {"method": "group", "column": "trial", "seed": 1, "extrapolation_share": 0.2}},
+        {"split": {"method": "time", "column": "t", "blocks": 20}},
+        {"urls": ["https://example.org/arm.csv"], "sha256": "0" * 64, "licence": "CC0", "citation": "nobody"},
+        {"notes": {"test": "hm"}, "paper_params": {"mlp": {"max_iter": 9}}, "rows": dict.fromkeys(ALL_FOUR, 5)},
+    ],
+)
+def test_a_robot_of_ones_own_is_one_entry(changes: dict[str, Any]) -> None:
+    check(GOOD | {"datasets": ["arm"], "sources": GOOD["sources"] | {"arm": OWN | changes}})
+
+
+@pytest.mark.parametrize(
+    ("changes", "says"),
+    [
+        ({"commands": None}, ["sources.arm: 'commands' is a required property"]),
+        ({"split": None}, ["sources.arm: 'split' is a required property"]),
+        ({"commands": []}, ["sources.arm.commands", "a list of names, or a pattern"]),
+        ({"positions": ["x", "x"]}, ["sources.arm.positions"]),
+        ({"dimensions": 4}, ["sources.arm.dimensions: 4 is none of 2, 3"]),
+        ({"delimiter": "a"}, ["sources.arm.delimiter", "splits columns"]),
+        ({"dimension": 2}, ["did you mean 'dimensions'?"]),
+        ({"urls": ["https://example.org/arm.csv"]}, ["'sha256' is a dependency of 'urls'"]),
+        ({"split": {"method": "groups"}}, ["sources.arm.split.method", "did you mean 'group'?"]),
+        ({"split": {"method": "group"}}, ["sources.arm.split: 'column' is a required property"]),
+        (
+            {"split": {"method": "random", "blocks": 20}},
+            ["sources.arm.split: 'blocks' is none of method, extrapolation"],
+        ),
+        ({"split": {"method": "random", "sed": 2}}, ["sources.arm.split: unknown key 'sed'", "did you mean 'seed'?"]),
+        ({"split": {"method": "random", "extrapolation_share": 1.5}}, ["extrapolation_share", "share of rows"]),
+        ({"split": {"method": "column", "column": "c", "names": {"train": 0}}}, ["'test' is a required property"]),
+        ({"format": "table_fil"}, ["did you mean 'table_file'?"]),
+    ],
+)
+def test_a_mistake_in_a_robot_of_ones_own_is_named(changes: dict[str, Any], says: list[str]) -> None:
+    entry = {key: value for key, value in (OWN | changes).items() if value is not None}
+    with pytest.raises(SoftkinError) as error:
+        check(GOOD | {"sources": GOOD["sources"] | {"arm": entry}})
+    for part in says:
+        assert part in str(error.value)
+
+
+def test_keys_of_a_table_do_not_belong_to_a_published_dataset() -> None:
+    config = copy.deepcopy(GOOD)
+    config["sources"]["finger"]["split"] = {"method": "random"}
+    with pytest.raises(SoftkinError, match=r"sources\.finger: 'split' .*belongs to format table_file"):
+        check(config)
 
 
 def test_all_mistakes_are_told_at_once() -> None:

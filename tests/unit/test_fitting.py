@@ -5,10 +5,11 @@ from pathlib import Path
 import joblib
 import numpy as np
 import pandas as pd
+import pytest
 
 from softkin.datasets.table import read_subset, to_table, write_table
 from softkin.files import read_json
-from softkin.fitting import fit, fit_quietly, kinematic_model, predict
+from softkin.fitting import fit, fit_quietly, kinematic_model, predict, some_rows
 from softkin.interface import SUBSETS, TRAIN, Samples
 from softkin.models import MODELS
 from tests.conftest import bending_arm, four_subsets
@@ -84,3 +85,16 @@ def test_a_coordinate_that_never_varies_is_predicted_exactly() -> None:
     estimator = kinematic_model(MODELS["mlp"], {**MODELS["mlp"].paper_params}, skip_constant=True, seed=0, threads=1)
     fit_quietly(estimator, rows, 1)
     np.testing.assert_array_equal(estimator.predict(rows.commands)[:, :3], rows.positions[:, :3])
+
+
+def test_a_model_that_cannot_take_all_rows_gets_some_and_the_log_says_so(caplog: pytest.LogCaptureFixture) -> None:
+    rows = bending_arm(50)
+    kept = some_rows(rows, 20, seed=0)
+    assert len(kept) == 20
+    places = [int(np.flatnonzero((rows.commands == row).all(axis=1))[0]) for row in kept.commands]
+    assert places == sorted(set(places))
+    np.testing.assert_array_equal(rows.positions[places], kept.positions)
+    assert "fitted on 20 of 50 rows: max_fit_rows" in caplog.text
+    caplog.clear()
+    assert some_rows(rows, 50, seed=0) is rows is some_rows(rows, None, seed=0)
+    assert not caplog.text

@@ -18,7 +18,14 @@ from softkin.interface import SUBSETS, SoftkinError
 from softkin.tracking import Campaign, create_store, log_dataset, log_intervals
 from softkin.tracking.store import CONTENT, KEY, PARENT
 
-ABOUT = {"dataset": "finger", "title": "FINGER", "sha256": "ab" * 32, "n_commands": 2, "n_markers": 1}
+ABOUT = {
+    "dataset": "finger",
+    "title": "FINGER",
+    "sha256": "ab" * 32,
+    "origin": "published",
+    "n_commands": 2,
+    "n_markers": 1,
+}
 
 
 @pytest.fixture
@@ -32,6 +39,8 @@ def campaign(tmp_path: Path) -> Campaign:
 def results(tmp_path: Path) -> dict[str, Any]:
     """Result files of two runs of one dataset."""
     write_json(tmp_path / "dataset.json", ABOUT | {"rows": dict.fromkeys(SUBSETS, 9)})
+    finding = {"severity": "leak", "sentence": "Nine rows of test stand in train."}
+    write_json(tmp_path / "data_card.json", {"findings": [finding]})
     runs: dict[tuple[str, str], dict[str, str]] = {}
     rows = []
     for model, preset in (("svr", "paper"), ("svr", "tuned")):
@@ -52,7 +61,8 @@ def results(tmp_path: Path) -> dict[str, Any]:
             key = {"dataset": "finger", "subset": subset, "model": model, "preset": preset}
             rows.append(key | {"rmse_mm": 1.5, "euclidean_mean_mm": 2.0, "fit_seconds": 3.0, "predict_us_per_row": 4.0})
     pd.DataFrame(rows).to_csv(tmp_path / "point.csv", index=False)
-    return {"description": tmp_path / "dataset.json", "point": tmp_path / "point.csv", "runs": runs}
+    files = {"description": "dataset.json", "data_card": "data_card.json", "point": "point.csv"}
+    return {name: tmp_path / file for name, file in files.items()} | {"runs": runs}
 
 
 def snapshot(campaign: Campaign) -> dict[str, Any]:
@@ -148,6 +158,8 @@ def test_keys_are_tags_that_can_be_searched(campaign: Campaign, results: dict[st
     logged = log_dataset(campaign, **results)
     run = MlflowClient(campaign.tracking_uri).get_run(logged["svr/paper"])
     assert run.data.tags[KEY] == "nightly/finger/svr/paper"
+    assert run.data.tags["leak"] == "true"
+    assert "Nine rows of test stand in train" in run.data.tags["mlflow.note.content"]
     assert read_json(results["description"])["dataset"] == "finger"
 
 

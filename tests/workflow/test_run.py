@@ -22,6 +22,7 @@ from tests.workflow.conftest import House
 pytestmark = pytest.mark.timeout(300)
 DATASETS = ("elastica_2023_09", "finger")
 CONFIGURED = yaml.safe_load((HOUSE / "config" / "config.yaml").read_text())
+INTERVAL_STAGES = {"intervals", "score_intervals", "figures", "calibrated_model"}
 TIMINGS = ["fit_seconds", "predict_us_per_row"]
 
 
@@ -104,7 +105,7 @@ def test_the_store_holds_a_child_run_per_model_and_preset(house: House) -> None:
     client = MlflowClient(f"sqlite:///{house.work / 'mlflow.db'}")
     for dataset in DATASETS:
         experiment = client.get_experiment_by_name(dataset)
-        runs = client.search_runs([experiment.experiment_id], max_results=100)
+        runs = client.search_runs([experiment.experiment_id], max_results=1000)
         nested = [run for run in runs if "interval_method" in run.data.tags]
         # SCP by two engines and by distance, predictive system and regions on every run; by spread on three models,
         # the own interval on two, CV+ and jackknife+ on six; QR and CQR on two learners
@@ -138,7 +139,7 @@ def test_editing_a_model_reruns_its_jobs_and_no_others(house: House) -> None:
         jobs = house.jobs()
     finally:
         file.write_text(original)
-    jobs = [job for job in jobs if job[0] not in ("refit", "intervals", "score_intervals")]
+    jobs = [job for job in jobs if job[0] not in INTERVAL_STAGES | {"refit"}]
     per_model = {job for job in jobs if job[0] in ("tune", "fit_paper", "fit_tuned", "predict")}
     assert {rule for rule, _ in per_model} == {"tune", "fit_paper", "fit_tuned", "predict"}
     assert all("model=svr" in wildcards for _, wildcards in per_model)
@@ -152,10 +153,10 @@ def test_editing_a_model_reruns_its_jobs_and_no_others(house: House) -> None:
         ("metrics/point.py", {"score", "tables", "track"}),
         ("tables/published.py", {"tables"}),
         ("tracking/store.py", {"track"}),
-        ("intervals/split_conformal_crepes.py", {"intervals", "score_intervals", "tables", "track"}),
-        ("regions/balls.py", {"score_intervals", "tables", "track"}),
-        ("refitting.py", {"refit", "intervals", "score_intervals", "tables", "track"}),
-        ("metrics/interval.py", {"score_intervals", "tables", "track"}),
+        ("intervals/split_conformal_crepes.py", INTERVAL_STAGES | {"tables", "track"}),
+        ("regions/balls.py", {"score_intervals", "figures", "tables", "track"}),
+        ("refitting.py", INTERVAL_STAGES | {"refit", "tables", "track"}),
+        ("metrics/interval.py", INTERVAL_STAGES | {"tables", "track"}),
     ],
 )
 def test_editing_a_later_stage_refits_nothing(house: House, module: str, rules: set[str]) -> None:
@@ -214,8 +215,34 @@ def test_bad_data_stop_with_a_message_and_lose_nothing(house: House, tmp_path: P
     assert done.returncode != 0
     for part in ("dataset 'finger'", "wrong file: sha256 is", "SOFTKIN_DATA_MIRROR"):
         assert part in output
-    assert not (tmp_path / "results" / "finger" / "raw.json").exists()
+    assert not (tmp_path / "results" / "finger" / "raw").exists()
     assert (tmp_path / "results" / "elastica_2023_09" / "mlflow_runs.json").exists()
+
+
+def test_out_of_reach_a_stand_in_takes_the_place_and_the_published_data_return(house: House, tmp_path: Path) -> None:
+    """Nobody may take it for the real thing: another name, a title that says so, a warning before and after."""
+    (tmp_path / "mirror").mkdir()
+    override = yaml.safe_load((house.mirror / "override.yaml").read_text())
+    override["sources"]["finger"]["urls"] = []
+    override["datasets"] = ["finger"]
+    (tmp_path / "mirror" / "override.yaml").write_text(yaml.safe_dump(override))
+    alone = House(house.root, tmp_path, tmp_path / "mirror")
+    done = alone.snakemake("results/finger_standin/data_card.json")
+    output = done.stdout + done.stderr
+    assert done.returncode == 0, output[-3000:]
+    assert output.count("STAND-INS: finger cannot be reached") == 2
+    about = read_json(tmp_path / "results" / "finger_standin" / "dataset.json")
+    assert about["origin"] == "stand-in"
+    assert "STAND-IN" in about["title"]
+    assert about["rows"] == dict(zip(SUBSETS, (120, 88, 89, 120), strict=True))
+    fail = alone.snakemake("results/finger/table.parquet", "--config", "when_unreachable=fail")
+    assert fail.returncode != 0
+    assert "SOFTKIN_DATA_MIRROR" in fail.stdout + fail.stderr
+    shutil.copy(house.mirror / "FINGER.json", tmp_path / "mirror")
+    again = alone.snakemake("results/finger/table.parquet")
+    assert again.returncode == 0, again.stdout + again.stderr
+    assert "STAND-INS" not in again.stdout + again.stderr
+    assert read_json(tmp_path / "results" / "finger" / "dataset.json")["origin"] == "published"
 
 
 def test_the_house_is_linted(house: House) -> None:

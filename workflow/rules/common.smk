@@ -1,17 +1,20 @@
 # The configuration, checked; the lists that it spans; the paths that more than one stage needs.
+import os
 import sys
 
 from snakemake.exceptions import WorkflowError
 
 import softkin
 from softkin.configuration import check_configuration
-from softkin.datasets import READERS
+from softkin.datasets import READERS, reader_files
+from softkin.datasets.reaching import warning, with_stand_ins
 from softkin.figures import FIGURES
 from softkin.interface import PRESETS, SoftkinError, TUNED
 from softkin.intervals import INTERVAL_METHODS
 from softkin.models import MODELS, source_files
 from softkin.quantile_models import QUANTILE_MODELS
 from softkin.regions import REGION_METHODS
+from softkin.standins import STANDINS
 
 try:
     check_configuration(
@@ -23,10 +26,20 @@ try:
             "interval_methods": INTERVAL_METHODS,
             "quantile_models": QUANTILE_MODELS,
             "regions": REGION_METHODS,
+            "standins": STANDINS,
         },
     )
 except SoftkinError as error:
     raise WorkflowError(str(error)) from None
+
+STANDING_IN = []
+if config["when_unreachable"] == "simulate":
+    config["datasets"], config["sources"], STANDING_IN = with_stand_ins(
+        config["datasets"],
+        config["sources"],
+        mirror=os.environ.get("SOFTKIN_DATA_MIRROR") or config.get("data_mirror"),
+        retrieved={name: Path(f"results/{name}/raw") for name in config["datasets"]},
+    )
 
 PACKAGE = Path(softkin.__file__).parent
 PUBLISHED = Path(workflow.basedir) / "config" / "published"
@@ -63,9 +76,47 @@ def model_code(wildcards):
     return source_files(wildcards.model)
 
 
+def max_fit_rows(wildcards):
+    """How many rows of train a model is fitted on at most; None for one that takes any number."""
+    return config["max_fit_rows"].get(wildcards.model)
+
+
 def source(wildcards):
     """The dataset's entry in config/datasets.yaml."""
     return config["sources"][wildcards.dataset]
+
+
+def own_file(wildcards):
+    """The file of one's own that an entry without `urls` names: retrieved again when it changes."""
+    entry = source(wildcards)
+    return [] if "urls" in entry or "robot" in entry else [entry["file"]]
+
+
+def reader_code(wildcards):
+    """The files that decide how a dataset's file is read."""
+    return reader_files(source(wildcards)["format"])
+
+
+def cleaning_code(wildcards):
+    """The files that decide which rows of train are dropped, where the entry asks for it."""
+    names = ("cleaning", "duplicate_rows", "stuck_poses")
+    return (
+        package(*(f"auditing/{name}.py" for name in names))
+        if source(wildcards).get("clean")
+        else []
+    )
+
+
+def warn_of_stand_ins():
+    """In colour, where there is a terminal to show it: nobody may take a simulated robot for the real thing."""
+    if STANDING_IN:
+        text = warning(STANDING_IN)
+        is_terminal = sys.stderr.isatty()
+        print(
+            f"\033[1;33m{text}\033[0m" if is_terminal else text,
+            file=sys.stderr,
+            flush=True,
+        )
 
 
 def every_run(models=tuple(config["models"])):
@@ -191,6 +242,10 @@ def final_output():
         "results/tables/paper_tables.md",
         "results/tables/paper_tables.tex",
         *(f"results/tables/{name}" for name in TABLES),
-        *expand("results/{dataset}/figures", dataset=config["datasets"]),
+        *expand(
+            "results/{dataset}/{name}",
+            dataset=config["datasets"],
+            name=["data_card.md", "figures", "calibrated_model.joblib"],
+        ),
         *expand("results/{dataset}/mlflow_runs.json", dataset=config["datasets"]),
     ]

@@ -7,6 +7,7 @@ rule figures:
     input:
         table="results/{dataset}/table.parquet",
         description="results/{dataset}/dataset.json",
+        data_card="results/{dataset}/data_card.json",
         predictions=run_files("predictions.parquet"),
         trials=run_files("trials.csv", [TUNED]),
         intervals=expand(
@@ -22,6 +23,7 @@ rule figures:
             "datasets/table.py",
             "metrics/point.py",
             "choosing_intervals.py",
+            "findings.py",
             "figures/__init__.py",
             "figures/drawing.py",
             "figures/reading.py",

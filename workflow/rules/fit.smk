@@ -20,6 +20,7 @@ rule fit_paper:
         overrides=lookup(
             dpath="sources/{dataset}/paper_params/{model}", within=config, default={}
         ),
+        max_rows=max_fit_rows,
         seed=config["seed"],
     script:
         "../scripts/fit_paper.py"
@@ -43,6 +44,7 @@ rule fit_tuned:
         SOFTWARE
     threads: 1
     params:
+        max_rows=max_fit_rows,
         seed=config["seed"],
     script:
         "../scripts/fit_tuned.py"

@@ -31,7 +31,12 @@ rule intervals:
         unpack(stored_outputs),
         table="results/{dataset}/table.parquet",
         parameters=run_files("parameters.json", presets=[TUNED]),
-        code=package(*EVIDENCE_CODE, "calibrating.py", "choosing_intervals.py"),
+        code=package(
+            *EVIDENCE_CODE,
+            "calibrating.py",
+            "choosing_intervals.py",
+            "metrics/interval.py",
+        ),
         interval_code=interval_code(),
     output:
         intervals=expand(
@@ -89,3 +94,25 @@ rule score_intervals:
         regions=config["regions"],
     script:
         "../scripts/score_intervals.py"
+
+
+# in:  which model and method a dataset gets, the fitted models, the rows of train and validation
+# out: one file that predicts, with intervals, regions and p-values, at any command
+rule calibrated_model:
+    input:
+        table="results/{dataset}/table.parquet",
+        choice="results/{dataset}/interval_choice.csv",
+        models=run_files("model.joblib"),
+        code=package("calibrated_model.py", "conformal.py", "fitting.py"),
+    output:
+        "results/{dataset}/calibrated_model.joblib",
+    log:
+        "results/logs/calibrated_model/{dataset}.log",
+    priority: 30
+    conda:
+        SOFTWARE
+    threads: 1
+    params:
+        runs=every_run(),
+    script:
+        "../scripts/calibrated_model.py"

@@ -1,11 +1,11 @@
-# in:  the published file of a dataset
+# in:  the file of a dataset
 # out: the tidy table (subset, u1.., m1_x.. in mm) and its description
 rule prepare:
     input:
-        raw="results/{dataset}/raw.json",
-        code=package(
-            "datasets/preparing.py", "datasets/published_json.py", "datasets/table.py"
-        ),
+        raw="results/{dataset}/raw",
+        code=package("datasets/preparing.py", "datasets/table.py"),
+        cleaning=cleaning_code,
+        reader_code=reader_code,
     output:
         table="results/{dataset}/table.parquet",
         description="results/{dataset}/dataset.json",

@@ -9,7 +9,7 @@ rule tune_quantiles:
             "tuning.py",
             "folds.py",
             "quantiles.py",
-            "metrics/interval.py",
+            "metrics/pinball.py",
             "estimators/boosted_quantiles.py",
             "datasets/table.py",
         ),

@@ -1,8 +1,10 @@
-# in:  nothing (the mirror or the internet)
-# out: the published file of a dataset, hash checked
+# in:  nothing (the mirror or the internet), or a file of one's own
+# out: the file of a dataset as it came, hash checked where a hash is registered
 rule retrieve:
+    input:
+        own_file,
     output:
-        "results/{dataset}/raw.json",
+        "results/{dataset}/raw",
     log:
         "results/logs/retrieve/{dataset}.log",
     priority: 50

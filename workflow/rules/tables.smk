@@ -9,6 +9,7 @@ rule tables:
         conditional=of_every_dataset("results/{dataset}/conditional_coverage.csv"),
         alarms=of_every_dataset("results/{dataset}/alarm_rates.csv"),
         descriptions=of_every_dataset("results/{dataset}/dataset.json"),
+        data_cards=of_every_dataset("results/{dataset}/data_card.json"),
         parameters=of_every_dataset(run_files("parameters.json", [TUNED])),
         published=PUBLISHED / "point_metrics.csv",
         subsets=PUBLISHED / "subsets.csv",

@@ -18,6 +18,7 @@ rule track:
     input:
         store=ancient("results/mlflow_store.json"),
         description="results/{dataset}/dataset.json",
+        data_card="results/{dataset}/data_card.json",
         point="results/{dataset}/point_metrics.csv",
         predictions=run_files("predictions.parquet"),
         fit=run_files("fit.json"),

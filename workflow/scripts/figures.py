@@ -5,6 +5,7 @@ from pathlib import Path
 from softkin.figures import FIGURES
 from softkin.figures.drawing import draw
 from softkin.files import read_json
+from softkin.findings import LEAK
 from softkin.interface import DatasetResults
 from softkin.intervals import INTERVAL_METHODS
 from softkin.job import job
@@ -21,6 +22,10 @@ def by(names, paths):
 
 
 with job(snakemake.log[0], f"figures {dataset}"):
+    notes = dict(params.source.get("notes", {}))
+    for finding in read_json(given.data_card)["findings"]:
+        for subset in finding["subsets"] if finding["severity"] == LEAK else ():
+            notes[subset] = f"LEAK: {finding['sentence']} {notes.get(subset, '')}".strip()
     results = DatasetResults(
         dataset=dataset,
         title=read_json(given.description)["title"],
@@ -32,7 +37,7 @@ with job(snakemake.log[0], f"figures {dataset}"):
         interval_metrics=Path(given.interval_metrics),
         choice=Path(given.choice),
         conditional=Path(given.conditional),
-        notes=params.source.get("notes", {}),
+        notes=notes,
         model_titles={name: spec.title for name, spec in learners.items()},
         method_titles={name: method.title for name, method in INTERVAL_METHODS.items()},
         on_quantiles={name: method.on == "quantiles" for name, method in INTERVAL_METHODS.items()},

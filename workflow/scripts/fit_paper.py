@@ -15,4 +15,5 @@ with job(snakemake.log[0], f"fit {dataset} {model} paper"):
         threads=snakemake.threads,
         model=snakemake.output.model,
         record=snakemake.output.record,
+        max_rows=snakemake.params.max_rows,
     )

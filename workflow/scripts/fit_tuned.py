@@ -16,4 +16,5 @@ with job(snakemake.log[0], f"fit {dataset} {model} tuned"):
         threads=snakemake.threads,
         model=snakemake.output.model,
         record=snakemake.output.record,
+        max_rows=snakemake.params.max_rows,
     )

@@ -1,5 +1,6 @@
-"""Rule prepare: published file -> tidy table in mm."""
+"""Rule prepare: the file of a dataset -> tidy table in mm."""
 
+from softkin.auditing.cleaning import cleaned
 from softkin.datasets.preparing import prepare
 from softkin.job import job
 
@@ -12,4 +13,5 @@ with job(snakemake.log[0], f"prepare {dataset}"):
         table=snakemake.output.table,
         description=snakemake.output.description,
         max_rows=snakemake.params.max_rows,
+        clean=cleaned if snakemake.params.source.get("clean") else None,
     )

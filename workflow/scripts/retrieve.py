@@ -1,18 +1,20 @@
-"""Rule retrieve: put the published file of a dataset in place."""
+"""Rule retrieve: put the file of a dataset in place."""
 
 import os
 
-from softkin.datasets.retrieving import retrieve
+from softkin.datasets.retrieving import retrieve, take_own_file
+from softkin.datasets.simulated import RECIPE
+from softkin.files import write_json
 from softkin.job import job
 
 dataset = snakemake.wildcards.dataset
 source = snakemake.params.source
+place = {"dataset": dataset, "file": source["file"], "destination": snakemake.output[0]}
 with job(snakemake.log[0], f"retrieve {dataset}"):
-    retrieve(
-        dataset=dataset,
-        file=source["file"],
-        urls=source["urls"],
-        sha256=source["sha256"],
-        destination=snakemake.output[0],
-        mirror=os.environ.get("SOFTKIN_DATA_MIRROR") or snakemake.params.mirror,
-    )
+    if "robot" in source:
+        write_json(snakemake.output[0], {key: source[key] for key in RECIPE})
+    elif "urls" in source:
+        mirror = os.environ.get("SOFTKIN_DATA_MIRROR") or snakemake.params.mirror
+        retrieve(**place, urls=source["urls"], sha256=source["sha256"], mirror=mirror)
+    else:
+        take_own_file(**place, sha256=source.get("sha256"))

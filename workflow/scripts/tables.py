@@ -16,6 +16,7 @@ with job(snakemake.log[0], "tables"):
         conditional=snakemake.input.conditional,
         alarms=snakemake.input.alarms,
         descriptions=snakemake.input.descriptions,
+        data_cards=snakemake.input.data_cards,
         parameters=snakemake.input.parameters,
         studies=[tuple(study) for study in snakemake.params.studies],
         sources=snakemake.params.sources,

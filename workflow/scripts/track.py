@@ -19,7 +19,9 @@ with job(snakemake.log[0], f"track {snakemake.wildcards.dataset}"):
         tracking_uri=snakemake.params.tracking_uri,
         artifacts="mlartifacts",
     )
-    logged = log_dataset(campaign, description=given.description, point=given.point, runs=runs)
+    logged = log_dataset(
+        campaign, description=given.description, data_card=given.data_card, point=given.point, runs=runs
+    )
     dataset = snakemake.wildcards.dataset
     n_intervals = log_intervals(
         campaign, dataset=dataset, metrics=given.intervals, figures=given.figures, parents=logged

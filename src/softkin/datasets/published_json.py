@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -17,12 +18,12 @@ from softkin.interface import EXTRAPOLATION, TEST, TRAIN, VALIDATION, Array, Sam
 SUBSET_KEYS = {TRAIN: "train", VALIDATION: "val", TEST: "test", EXTRAPOLATION: "ext"}
 
 
-def read(path: str | Path, *, dataset: str, n_commands: int, n_markers: int) -> dict[str, Samples]:
+def read(path: str | Path, *, dataset: str, source: Mapping[str, Any]) -> dict[str, Samples]:
     """Samples per subset, positions in the file's own unit.
 
     Raises:
-        SoftkinError: anything that is not `n_commands` and `n_markers` x 3 finite numbers per row; names the
-            dataset, subset, field and row.
+        SoftkinError: anything that is not `n_commands` and `n_markers` x 3 finite numbers per row, as the entry
+            `source` says; names the dataset, subset, field and row.
     """
 
     def fail(where: str, what: str) -> SoftkinError:
@@ -43,7 +44,7 @@ def read(path: str | Path, *, dataset: str, n_commands: int, n_markers: int) -> 
         if not isinstance(content.get(key), dict):
             raise fail(f"subset '{key}'", "missing, or not an object")
         arrays = {}
-        for field, shape in (("motor_control", (n_commands,)), ("position", (n_markers, 3))):
+        for field, shape in (("motor_control", (source["n_commands"],)), ("position", (source["n_markers"], 3))):
             where = f"subset '{key}', field '{field}'"
             rows = content[key].get(field)
             if not isinstance(rows, list):

@@ -1,4 +1,6 @@
-"""Retrieve a published file: from the mirror, else from each URL in order; hashed before it is put in place."""
+"""Retrieve a published file: from the mirror, else from each URL in order; hashed before it is put in place.
+A file of one's own is copied, so that a run keeps what it was made from.
+"""
 
 from __future__ import annotations
 
@@ -76,6 +78,25 @@ def retrieve(
         + f"\n  mend: check the internet connection, or put {file} (sha256 {sha256}) into a folder and name that "
         "folder, or a URL prefix, in SOFTKIN_DATA_MIRROR or in config key data_mirror."
     )
+
+
+def take_own_file(*, dataset: str, file: str, destination: str | Path, sha256: str | None = None) -> None:
+    """Copy the `file` of one's own to `destination`, checked against `sha256` where one is registered.
+
+    Raises:
+        SoftkinError: the file is not there or is not the registered one.
+    """
+    try:
+        with replacing(destination) as temporary:
+            _copy(Path(file), temporary)
+            if sha256 is not None:
+                _check(temporary, sha256)
+    except (WrongHash, OSError) as error:
+        raise SoftkinError(
+            f"dataset '{dataset}': {file}: {_reason(error)}\n  mend: correct `file` or `sha256` of its entry in "
+            "config/datasets.yaml; a relative path starts where the run works"
+        ) from error
+    logger.info("copied %s (%d bytes)", file, Path(destination).stat().st_size)
 
 
 def _sources(

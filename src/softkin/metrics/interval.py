@@ -38,12 +38,6 @@ def winkler_scores(true: Array, intervals: Array, confidence_level: float) -> Ar
     return np.asarray(widths(intervals) + 2.0 / alpha * (below + above))
 
 
-def pinball_losses(true: Array, quantiles: Array, quantile: float) -> Array:
-    """Pinball loss of predicted quantiles, elementwise; mm (Koenker and Bassett 1978)."""
-    error = true - quantiles
-    return np.asarray(np.maximum(quantile * error, (quantile - 1) * error))
-
-
 @cache
 def coverage_band(n_rows: int, n_calibration: int, rank: int, band: float = 0.95) -> tuple[float, float]:
     """Exact central band of the coverage of `n_rows` new rows of a conformal interval of this rank.

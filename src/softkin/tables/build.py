@@ -9,6 +9,7 @@ from typing import Any
 import pandas as pd
 
 from softkin.files import read_json, replacing, write_text
+from softkin.findings import LEAK
 from softkin.tables.headline import headline
 from softkin.tables.interval_choice import interval_choice
 from softkin.tables.paper_layout import SUBSET_TITLES, PaperTable, comparison_table, subset_table
@@ -26,6 +27,7 @@ def build_tables(
     conditional: Sequence[str | Path],
     alarms: Sequence[str | Path],
     descriptions: Sequence[str | Path],
+    data_cards: Sequence[str | Path],
     parameters: Sequence[str | Path],
     studies: Sequence[tuple[str, str]],
     sources: Mapping[str, Mapping[str, Any]],
@@ -38,14 +40,15 @@ def build_tables(
 ) -> None:
     """Write every table into `folder`.
 
-    `point`, `markers`, `intervals`, `conditional`, `alarms` and `descriptions` hold one file per dataset, `choices` is
-    dataset -> file; `parameters` one per (dataset, model)
-    of `studies`, or none when nothing was tuned; `sources` are the datasets' entries of config/datasets.yaml.
+    `point`, `markers`, `intervals`, `conditional`, `alarms`, `descriptions` and `data_cards` hold one file per dataset,
+    `choices` is dataset -> file; `parameters` one per (dataset, model) of `studies`, or none when nothing was tuned;
+    `sources` are the datasets' entries of config/datasets.yaml.
     """
     scores = pd.concat([pd.read_csv(path) for path in point], ignore_index=True)
     per_marker = pd.concat([pd.read_csv(path) for path in markers], ignore_index=True)
     abouts = [read_json(path) for path in descriptions]
-    notes = _notes(sources, abouts)
+    cards = [read_json(path) for path in data_cards]
+    notes = _notes(sources, abouts, cards)
     cells = compare(read_published(published), scores, notes)
     columns = compare_columns(cells) if parameters else None
     chosen = None
@@ -74,20 +77,31 @@ def build_tables(
         titles = {name: entry["title"] for name, entry in sources.items()}
         laid_out.append(table_6(interval_cells, titles, dict(interval_titles)))
     sentences = summary(cells, columns)
+    leaking = [card["dataset"] for card in cards if card["is_leaking"]]
     write_text(folder / "paper_tables.md", "\n".join([_preface(sentences), *(table.markdown() for table in laid_out)]))
     write_text(folder / "paper_tables.tex", "\n".join(table.latex() for table in laid_out))
-    write_text(folder / "headline.txt", headline(chosen, scores, chosen_intervals, sentences))
+    write_text(folder / "headline.txt", headline(chosen, scores, chosen_intervals, sentences, leaking))
 
 
-def _notes(sources: Mapping[str, Mapping[str, Any]], abouts: Sequence[Mapping[str, Any]]) -> dict[tuple[str, str], str]:
-    """What a reader must know, by (dataset, subset): the entries' notes, and that rows were left out."""
-    notes = {(name, subset): note for name, entry in sources.items() for subset, note in entry.get("notes", {}).items()}
-    for about in abouts:
-        if about["is_cut"]:
-            for subset in SUBSET_TITLES:
-                key = (about["dataset"], subset)
-                warning = "Not comparable with the paper: max_rows_per_subset left rows out."
-                notes[key] = f"{notes.get(key, '')} {warning}".strip()
+def _notes(
+    sources: Mapping[str, Mapping[str, Any]], abouts: Sequence[Mapping[str, Any]], cards: Sequence[Mapping[str, Any]]
+) -> dict[tuple[str, str], str]:
+    """What a reader must know, by (dataset, subset): the entries' notes, leaks, and that rows were left out."""
+    found = [
+        ((name, subset), note) for name, entry in sources.items() for subset, note in entry.get("notes", {}).items()
+    ]
+    found += [
+        ((card["dataset"], subset), f"LEAK: {finding['sentence']} {finding['consequence']}")
+        for card in cards
+        for finding in card["findings"]
+        if finding["severity"] == LEAK
+        for subset in finding["subsets"]
+    ]
+    warning = "Not comparable with the paper: max_rows_per_subset left rows out."
+    found += [((about["dataset"], subset), warning) for about in abouts if about["is_cut"] for subset in SUBSET_TITLES]
+    notes: dict[tuple[str, str], str] = {}
+    for key, note in found:
+        notes[key] = f"{notes.get(key, '')} {note}".strip()
     return notes
 
 

@@ -11,12 +11,17 @@ from softkin.tables.paper_layout import format_number
 
 
 def headline(
-    selected: pd.DataFrame | None, point: pd.DataFrame, intervals: pd.DataFrame, sentences: Sequence[str]
+    selected: pd.DataFrame | None,
+    point: pd.DataFrame,
+    intervals: pd.DataFrame,
+    sentences: Sequence[str],
+    leaking: Sequence[str] = (),
 ) -> str:
-    """Plain text, under 80 columns."""
+    """Plain text, under 80 columns; `leaking` names the datasets whose test rows stand in train."""
+    wide = 2 + max(18, *map(len, intervals["dataset"]))
     lines = ["", "softkin: forward kinematics, mean error of a marker position (mm)", ""]
     if selected is not None:
-        lines.append(f"  {'dataset':<20}{'model':<8}{'test':>10}{'95 %':>10}{'extrapolation':>16}")
+        lines.append(f"  {'dataset':<{wide}}{'model':<8}{'test':>10}{'95 %':>10}{'extrapolation':>16}")
         remarks: list[str] = []
         tuned = point[point["preset"] == TUNED].set_index(["dataset", "model", "subset"])
         for row in selected.itertuples():
@@ -24,11 +29,12 @@ def headline(
             outside = tuned.loc[(row.dataset, row.model, EXTRAPOLATION)]
             numbers = (test["euclidean_mean_mm"], test["euclidean_p95_mm"], outside["euclidean_mean_mm"])
             texts = [format_number(number) for number in numbers]
-            lines.append(f"  {row.dataset:<20}{row.model:<8}{texts[0]:>10}{texts[1]:>10}{texts[2]:>16}")
+            lines.append(f"  {row.dataset:<{wide}}{row.model:<8}{texts[0]:>10}{texts[1]:>10}{texts[2]:>16}")
             if numbers[0] > numbers[1]:
                 remarks.append(f"  {row.dataset}: a few gross misses set the mean, which exceeds the 95th percentile.")
+        remarks += [f"  {dataset}: LEAK. Its test rows stand in train, see its data card." for dataset in leaking]
         lines += ["", "  The model is chosen by cross-validation on `train` alone.", *remarks]
-    lines += _how_sure(intervals)
+    lines += _how_sure(intervals, wide)
     lines += [f"  {sentence}" for sentence in sentences]
     lines += [
         "",
@@ -40,14 +46,16 @@ def headline(
     return "\n".join(lines)
 
 
-def _how_sure(intervals: pd.DataFrame) -> list[str]:
+def _how_sure(intervals: pd.DataFrame, wide: int) -> list[str]:
     """Per dataset the chosen interval: what surrounds a coordinate, how wide, how often it covers `test`."""
     chosen = intervals[intervals["chosen"]]
     level = chosen["confidence_level"].iloc[0]
     lines = ["", f"  how sure: {level:.0%} intervals, mean over coordinates, on test", ""]
-    lines.append(f"  {'dataset':<20}{'around':<14}{'method':<16}{'width (mm)':>12}{'covers':>10}")
+    lines.append(f"  {'dataset':<{wide}}{'around':<14}{'method':<16}{'width (mm)':>12}{'covers':>10}")
     for row in chosen.itertuples():
         around = f"{row.model} {row.preset}"
         width = format_number(row.test_mean_width_mm)
-        lines.append(f"  {row.dataset:<20}{around:<14}{row.interval_method:<16}{width:>12}{row.test_coverage:>10.1%}")
+        lines.append(
+            f"  {row.dataset:<{wide}}{around:<14}{row.interval_method:<16}{width:>12}{row.test_coverage:>10.1%}"
+        )
     return [*lines, "", "  The method is chosen, and calibrated, on `validation` alone.", ""]

@@ -77,7 +77,18 @@ def compare_columns(cells: pd.DataFrame) -> pd.DataFrame:
                 "note": best_ours["note"],
             }
         )
-    return pd.DataFrame(rows)
+    columns = [
+        "dataset",
+        "subset",
+        "metric",
+        "printed",
+        "printed_model",
+        "tuned_value",
+        "tuned_model",
+        "verdict",
+        "note",
+    ]
+    return pd.DataFrame(rows, columns=columns)
 
 
 def count_verdicts(verdicts: pd.Series, wanted: tuple[str, ...]) -> str:
@@ -87,6 +98,8 @@ def count_verdicts(verdicts: pd.Series, wanted: tuple[str, ...]) -> str:
 
 def summary(cells: pd.DataFrame, columns: pd.DataFrame | None) -> list[str]:
     """The counts a reader asks for first, one sentence each."""
+    if cells.empty:
+        return ["nothing was run that the paper has printed"]
     lines = []
     if f"{PAPER}_verdict" in cells:
         lines.append(f"paper preset: {count_verdicts(cells['paper_verdict'], (REPRODUCED,))} printed cells reproduced")

@@ -16,6 +16,19 @@ METRICS = {"coverage": "Coverage", "winkler_mm": "Winkler score (mm)"}
 AVERAGES = ("mean", "mean_informative", "joint")
 #: The paper's alpha is 0.1, and its interval table is on gradient boosting.
 LEVEL, MODEL = 0.9, "gb"
+#: What a printed column may have been: its package's methods.
+MAY_BE = {
+    "qr": ("qr",),
+    "cqr": ("cqr", "cqr_asymmetric"),
+    "scp_mapie": ("scp_mapie", "cv_plus", "jackknife_plus_ab"),
+    "scp_crepes": ("scp_crepes", "cps"),
+}
+COLUMNS = (
+    *("dataset", "interval_method", "metric", "printed", "honest_value", "honest_verdict", "nearest_value"),
+    *("nearest_verdict", "nearest_coordinate", "nearest_model", "nearest_preset", "nearest_interval_method"),
+    *("nearest_confidence_level", "explanation"),
+)
+NEAREST = ("coordinate", "model", "preset", "interval_method", "confidence_level")
 
 
 def read_published_intervals(path: str | Path) -> pd.DataFrame:
@@ -27,12 +40,14 @@ def compare_intervals(published: pd.DataFrame, metrics: pd.DataFrame, point: pd.
     """Two rows (coverage, Winkler score) per printed dataset and method that was run.
 
     `honest` is GB in the paper preset at 90 % on `test`, averaged over informative coordinates. `nearest` is the single
-    coordinate, model, preset and level of the same method whose coverage and Winkler score together come nearest.
+    coordinate, model, preset, method of the same package and level whose coverage and Winkler score together come
+    nearest.
     """
     test = metrics[metrics["subset"] == TEST]
     rows = []
     for printed in published.to_dict("records"):
-        mine = test[(test["dataset"] == printed["dataset"]) & (test["interval_method"] == printed["interval_method"])]
+        there = test[test["dataset"] == printed["dataset"]]
+        mine = there[there["interval_method"] == printed["interval_method"]]
         honest = mine[
             (mine["model"] == MODEL)
             & (mine["preset"] == PAPER)
@@ -41,7 +56,8 @@ def compare_intervals(published: pd.DataFrame, metrics: pd.DataFrame, point: pd.
         ]
         if honest.empty:
             continue
-        nearest = _nearest(mine[~mine["coordinate"].isin(AVERAGES)], printed)
+        similar = there[there["interval_method"].isin(MAY_BE[printed["interval_method"]])]
+        nearest = _nearest(similar[~similar["coordinate"].isin(AVERAGES)], printed)
         for metric in METRICS:
             ours = float(honest.iloc[0][metric])
             rows.append(
@@ -53,11 +69,11 @@ def compare_intervals(published: pd.DataFrame, metrics: pd.DataFrame, point: pd.
                     "honest_verdict": _verdict(printed[metric], ours),
                     "nearest_value": float(nearest[metric]),
                     "nearest_verdict": _verdict(printed[metric], float(nearest[metric])),
-                    **{f"nearest_{key}": nearest[key] for key in ("coordinate", "model", "preset", "confidence_level")},
+                    **{f"nearest_{key}": nearest[key] for key in NEAREST},
                     "explanation": _explanation(printed, ours, metric, nearest, point),
                 }
             )
-    return pd.DataFrame(rows)
+    return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
 def _nearest(rows: pd.DataFrame, printed: dict[str, str]) -> pd.Series:
@@ -77,7 +93,7 @@ def _verdict(printed: str, ours: float) -> str:
 def _explanation(printed: dict[str, str], ours: float, metric: str, nearest: pd.Series, point: pd.DataFrame) -> str:
     where = (
         f"nearest single coordinate: {nearest['coordinate']}, {nearest['model']} {nearest['preset']}, "
-        f"{nearest['confidence_level']:.0%}"
+        f"{nearest['interval_method']} at {nearest['confidence_level']:.0%}"
     )
     if metric != "winkler_mm" or not printed["interval_method"].startswith("scp"):
         return f"average over moving coordinates {format_number(ours)}; {where}"

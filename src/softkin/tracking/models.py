@@ -14,6 +14,7 @@ from mlflow.entities import Dataset, DatasetInput, InputTag
 
 from softkin import __version__
 from softkin.files import read_json, sha256_of
+from softkin.findings import LEAK
 from softkin.tracking.store import NOTE, PARENT, Campaign, Record, client_of, delete, experiment_of, find, put
 
 TIMINGS = ("fit_seconds", "predict_us_per_row")
@@ -23,18 +24,21 @@ def log_dataset(
     campaign: Campaign,
     *,
     description: str | Path,
+    data_card: str | Path,
     point: str | Path,
     runs: Mapping[tuple[str, str], Mapping[str, str]],
 ) -> dict[str, str]:
     """Log the runs of one dataset, each (model, preset) a child of the campaign's run; return key -> run id.
 
-    `runs` gives for each (model, preset) its files: predictions, fit, and for a tuned model parameters and trials.
+    `data_card` has the findings of the audit. `runs` gives for each (model, preset) its files: predictions, fit, and
+    for a tuned model parameters and trials.
 
     Raises:
         SoftkinError: the store is gone.
     """
     client = client_of(campaign.tracking_uri)
     about = read_json(description)
+    about["findings"] = read_json(data_card)["findings"]
     scores = pd.read_csv(point)
     experiment = experiment_of(client, about["dataset"], campaign.artifacts)
     logged = {"campaign": _campaign_run(client, experiment, campaign, about)}
@@ -72,6 +76,7 @@ def _record(
             "fingerprint": tuned.get("fingerprint"),
             "n_trials": tuned.get("n_trials"),
             "parent": parent,
+            "findings": [finding["sentence"] for finding in about["findings"]],
         },
         tags={
             PARENT: parent,
@@ -81,7 +86,8 @@ def _record(
             "git_commit": _git_commit(),
             "softkin_version": __version__,
             NOTE: f"**{about['title']}**, {model}, {preset} preset. Mean marker error: "
-            f"{outcome['test']:.4g} mm on test, {outcome['extrapolation']:.4g} mm on extrapolation.",
+            f"{outcome['test']:.4g} mm on test, {outcome['extrapolation']:.4g} mm on extrapolation."
+            + "".join(f"\n\n**{found['severity']}**: {found['sentence']}" for found in about["findings"]),
         },
         metrics=metrics | ({"cv_mae_mm": tuned["cv_mae_mm"]} if tuned else {}),
         curves=curves,
@@ -96,7 +102,9 @@ def _common_tags(campaign: Campaign, about: Mapping[str, Any]) -> dict[str, str]
         "campaign": campaign.name,
         "dataset": about["dataset"],
         "data_sha256": about["sha256"],
+        "origin": about["origin"],
         "seed": str(campaign.seed),
+        "leak": str(any(finding["severity"] == LEAK for finding in about["findings"])).lower(),
     }
 
 

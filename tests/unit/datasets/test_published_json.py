@@ -20,7 +20,7 @@ GOOD = published_json(four_subsets(dict.fromkeys(SUBSETS, 4)))
 
 def parse(path: Path, content: Any) -> dict[str, Samples]:
     path.write_text(content if isinstance(content, str) else json.dumps(content))
-    return read(path, dataset="finger", n_commands=2, n_markers=1)
+    return read(path, dataset="finger", source={"n_commands": 2, "n_markers": 1})
 
 
 def spoil(change: Callable[[dict[str, Any]], Any]) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from softkin.datasets.retrieving import retrieve
+from softkin.datasets.retrieving import retrieve, take_own_file
 from softkin.interface import SoftkinError
 
 CONTENT = b'{"train": {}}' * 5000
@@ -140,3 +140,26 @@ def test_a_wrong_file_does_not_replace_a_right_one(server: Server, tmp_path: Pat
     with pytest.raises(SoftkinError):
         get(tmp_path / "raw.json", server.url("wrong"))
     assert (tmp_path / "raw.json").read_bytes() == CONTENT
+
+
+@pytest.mark.parametrize("sha256", [None, SHA256])
+def test_a_file_of_ones_own_is_copied(tmp_path: Path, sha256: str | None) -> None:
+    (tmp_path / "arm.csv").write_bytes(CONTENT)
+    destination = tmp_path / "results" / "raw.json"
+    take_own_file(dataset="arm", file=str(tmp_path / "arm.csv"), destination=destination, sha256=sha256)
+    assert destination.read_bytes() == CONTENT
+
+
+@pytest.mark.parametrize(
+    ("file", "sha256", "says"),
+    [("amr.csv", None, "no such file"), ("arm.csv", "0" * 64, "wrong file: sha256 is"), (".", None, "directory")],
+)
+def test_a_file_of_ones_own_that_is_not_there_or_not_registered_is_told(
+    tmp_path: Path, file: str, sha256: str | None, says: str
+) -> None:
+    (tmp_path / "arm.csv").write_bytes(CONTENT)
+    with pytest.raises(SoftkinError) as error:
+        take_own_file(dataset="arm", file=str(tmp_path / file), destination=tmp_path / "raw.json", sha256=sha256)
+    for part in ("'arm'", says, "mend"):
+        assert part in str(error.value)
+    assert [path.name for path in tmp_path.iterdir()] == ["arm.csv"]

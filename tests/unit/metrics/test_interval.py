@@ -14,6 +14,7 @@ from softkin.metrics.interval import (
     coverage_band,
     coverage_p_value,
     covered,
+    geometric_size,
     holm,
     winkler_scores,
 )
@@ -86,3 +87,8 @@ def test_clopper_pearson_holds_the_truth_often_enough() -> None:
 def test_holm_by_hand() -> None:
     np.testing.assert_allclose(holm(np.array([0.01, 0.04, 0.03])), [0.03, 0.06, 0.06])
     assert holm(np.array([0.9, 0.8])).max() == 1.0
+
+
+def test_the_size_of_a_box_is_the_side_of_a_cube_as_large() -> None:
+    sizes = geometric_size(np.array([[1.0, 8.0, 1.0], [2.0, 2.0, 2.0]]))
+    assert sizes == pytest.approx([2.0, 2.0])

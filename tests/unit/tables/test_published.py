@@ -82,3 +82,14 @@ def test_a_preset_that_was_not_run_is_left_out() -> None:
     cells = compare(PUBLISHED, only_paper, {})
     assert "tuned_verdict" not in cells
     assert summary(cells, None) == ["paper preset: 5 of 8 printed cells reproduced"]
+
+
+def test_where_nothing_printed_was_run_the_tables_are_empty_and_say_so() -> None:
+    """A robot of one's own, or a stand-in."""
+    row = {"dataset": "my_arm", "subset": "test", "model": "lr", "preset": "tuned"}
+    metrics = dict.fromkeys(["rmse_mm", "mae_mm", "r2", "mape_percent"], 1.0)
+    cells = compare(PUBLISHED, pd.DataFrame([row | metrics]), {})
+    columns = compare_columns(cells)
+    assert len(cells) == len(columns) == 0
+    assert "verdict" in columns
+    assert summary(cells, columns) == ["nothing was run that the paper has printed"]

@@ -63,3 +63,18 @@ def test_table_6_is_laid_out_as_in_the_paper() -> None:
     text = table_6(compare_intervals(PUBLISHED, metrics(), point(1.0)), {"finger": "FINGER"}, METHODS).markdown()
     assert "| Metric | QR printed | QR ours | CQR printed" in text
     assert "| Coverage | 0.78 | 0.850 | 0.90 | 0.850 | 0.99 | 0.850 | 0.83 | 0.850 |" in text
+
+
+def test_a_printed_column_may_have_been_another_method_of_its_package() -> None:
+    """FINGER's MAPIE column, 0.99 and 2.97 mm, looks like CV+."""
+    given = metrics()
+    plus = given[given["interval_method"] == "scp_mapie"].assign(interval_method="cv_plus", confidence_level=0.95)
+    plus.loc[plus["coordinate"] == "m1_z", ["coverage", "winkler_mm"]] = [0.99, 2.96]
+    cells = compare_intervals(PUBLISHED, pd.concat([given, plus], ignore_index=True), point(1.0)).set_index(
+        ["interval_method", "metric"]
+    )
+    cell = cells.loc[("scp_mapie", "winkler_mm")]
+    assert (cell["nearest_interval_method"], cell["nearest_confidence_level"]) == ("cv_plus", 0.95)
+    assert cell["nearest_verdict"] == "reproduced"
+    assert "cv_plus at 95%" in cell["explanation"]
+    assert cells.loc[("scp_crepes", "winkler_mm"), "nearest_interval_method"] == "scp_crepes"

@@ -1,0 +1,71 @@
+"""Audit: the table of `prepare` -> the data card of its dataset, as JSON and as a page to read."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from softkin.auditing import CHECKS
+from softkin.auditing.page import page
+from softkin.datasets.table import read_subset
+from softkin.files import write_json, write_text
+from softkin.findings import LEAK, worst_severity
+from softkin.interface import SUBSETS, Array, Samples, command_columns, coordinate_columns
+
+logger = logging.getLogger("softkin")
+
+
+def audit(
+    table: str | Path,
+    *,
+    dataset: str,
+    title: str,
+    position_unit: str,
+    data_card: str | Path,
+    readable: str | Path,
+    removed: Mapping[str, int] | None = None,
+) -> None:
+    """Run every check on `table` (Parquet, mm) and write `data_card` (JSON) and `readable` (Markdown).
+
+    `position_unit` is the unit of the dataset's own file, told in the card; `removed` counts the rows that `cleaned`
+    took from train before, None where it was not asked to.
+
+    Raises:
+        SoftkinError: a subset has no rows.
+    """
+    samples = {subset: read_subset(table, subset) for subset in SUBSETS}
+    results = {name: check(samples) for name, check in CHECKS.items()}
+    findings = [finding for result in results.values() for finding in result.findings]
+    card: dict[str, Any] = {
+        "dataset": dataset,
+        "title": title,
+        "worst_severity": worst_severity(findings),
+        "is_leaking": any(finding.severity == LEAK for finding in findings),
+        "findings": [finding.as_dict() for finding in findings],
+        "unit": "mm",
+        "unit_in_file": position_unit,
+        "subsets": {subset: _description(rows) for subset, rows in samples.items()},
+        "removed_from_train": None if removed is None else dict(removed),
+        "checks": {name: dict(result.numbers) for name, result in results.items()},
+    }
+    write_json(data_card, card)
+    write_text(readable, page(card))
+    for finding in findings:
+        logger.info("%s: %s", finding.severity, finding.sentence)
+    if not findings:
+        logger.info("nothing found in %d rows", sum(map(len, samples.values())))
+
+
+def _description(rows: Samples) -> dict[str, Any]:
+    """Rows and ranges of one subset."""
+    return {
+        "rows": len(rows),
+        "commands": _ranges(command_columns(rows.commands.shape[1]), rows.commands),
+        "positions_mm": _ranges(coordinate_columns(rows.positions.shape[1] // 3), rows.positions),
+    }
+
+
+def _ranges(names: list[str], values: Array) -> dict[str, list[float]]:
+    return {name: [float(column.min()), float(column.max())] for name, column in zip(names, values.T, strict=True)}

@@ -1,0 +1,152 @@
+"""The chosen model of a robot with its calibration set: where is it, how sure is that, and can it be there at all?"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import joblib
+import numpy as np
+import pandas as pd
+
+from softkin.conformal import conformal_limit, error_scale, p_values
+from softkin.datasets.table import read_subset
+from softkin.files import replacing
+from softkin.fitting import spread_of
+from softkin.interface import (
+    TRAIN,
+    VALIDATION,
+    Array,
+    Evidence,
+    IntervalMethod,
+    ModelSpec,
+    Samples,
+    SoftkinError,
+    informative_coordinates,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class CalibratedModel:
+    """Positions, intervals, regions and p-values at any commands (n_rows, n_commands), in mm.
+
+    `joblib.load("results/finger/calibrated_model.joblib")` gives one. What it promises holds for commands like those
+    it was calibrated with; outside the range of `train` nothing is promised.
+    """
+
+    dataset: str
+    spec: ModelSpec
+    preset: str
+    method: IntervalMethod
+    estimator: Any
+    train: Samples
+    validation: Samples
+
+    def predict(self, commands: Array) -> Array:
+        """Predicted positions (n_rows, n_coordinates)."""
+        return np.asarray(self.estimator.predict(self._checked(commands)))
+
+    def intervals(self, commands: Array, confidence_levels: Sequence[float]) -> Array:
+        """Intervals (n_levels, n_rows, n_coordinates, 2) of each coordinate by the chosen method; levels ascending."""
+        commands = self._checked(commands)
+        spreads = {}
+        if self.method.on != "predictions":
+            parts = {"train": self.train.commands, "calibration": self.validation.commands, "new": commands}
+            spreads = {
+                f"{part}_spread": spread_of(self.spec, self.estimator, self.train, rows) for part, rows in parts.items()
+            }
+        evidence = Evidence(
+            self.predict(self.validation.commands),
+            self.validation.positions,
+            self.predict(commands),
+            train_commands=self.train.commands,
+            calibration_commands=self.validation.commands,
+            new_commands=commands,
+            **spreads,
+        )
+        return self.method.intervals(evidence, confidence_levels)
+
+    def box(self, confidence_level: float) -> Array:
+        """Half-widths (n_coordinates,) in mm of a box around a predicted pose that holds all moving coordinates at
+        once; those that never move have none.
+        """
+        scale, scores = self._joint_scores(self.validation)
+        half = np.zeros(self.validation.positions.shape[1])
+        half[self._moving()] = scale * conformal_limit(scores, confidence_level)
+        return half
+
+    def p_values(
+        self, commands: Array, positions: Array, *, rng: np.random.Generator | None = None
+    ) -> tuple[Array, Array]:
+        """How well measured `positions` (n_rows, n_coordinates) agree with the model: p-values of each coordinate
+        (n_rows, n_coordinates) and of the whole pose (n_rows,).
+
+        The paper's Eq. 4; with `rng` smoothed. Calling a pose anomalous when its p-value is at most alpha raises a
+        false alarm in at most a share alpha of cases.
+        """
+        known = np.abs(self.validation.positions - self.predict(self.validation.commands))
+        single = p_values(known, np.abs(positions - self.predict(commands)), rng=rng)
+        (_, calibration), (_, new) = (
+            self._joint_scores(rows) for rows in (self.validation, Samples(commands, positions))
+        )
+        return single, p_values(calibration, new, rng=rng)
+
+    def _joint_scores(self, rows: Samples) -> tuple[Array, Array]:
+        """Scale (n_moving,) from `train`, and the largest residual of each pose in units of it."""
+        moving = self._moving()
+        known, residuals = (
+            np.abs(part.positions - self.predict(part.commands))[:, moving] for part in (self.train, rows)
+        )
+        scale = error_scale(known)
+        return scale, np.asarray((residuals / scale).max(axis=1))
+
+    def _moving(self) -> Any:
+        return informative_coordinates(self.train.positions)
+
+    def _checked(self, commands: Array) -> Array:
+        rows = np.atleast_2d(np.asarray(commands, dtype=np.float64))
+        wanted = self.train.commands.shape[1]
+        if rows.ndim != 2 or rows.shape[1] != wanted or not np.isfinite(rows).all():
+            raise SoftkinError(
+                f"{self.dataset}: expected finite commands of shape (n_rows, {wanted}), got {rows.shape}"
+            )
+        return rows
+
+
+def bundle(
+    table: str | Path,
+    *,
+    dataset: str,
+    choice: str | Path,
+    specs: Mapping[str, ModelSpec],
+    methods: Mapping[str, IntervalMethod],
+    models: Mapping[tuple[str, str], str | Path],
+    output: str | Path,
+) -> None:
+    """Write the calibrated model (joblib): the first choice that is calibrated around one of `models`.
+
+    `models` is (model, preset) -> fitted model. A method on quantiles has a learner of its own and no point
+    prediction, so the next best is taken.
+    """
+    ranked = pd.read_csv(choice)
+    around = [
+        row for row in ranked.to_dict("records") if methods[row["interval_method"]].on in ("predictions", "spreads")
+    ]
+    if not around:
+        raise SoftkinError(
+            f"{dataset}: no configured method puts an interval around a model; mend: add scp_mapie to interval_methods"
+        )
+    best = around[0]
+    calibrated = CalibratedModel(
+        dataset=dataset,
+        spec=specs[best["model"]],
+        preset=best["preset"],
+        method=methods[best["interval_method"]],
+        estimator=joblib.load(models[best["model"], best["preset"]]),
+        train=read_subset(table, TRAIN),
+        validation=read_subset(table, VALIDATION),
+    )
+    with replacing(output) as temporary:
+        joblib.dump(calibrated, temporary, compress=3)

@@ -1,0 +1,97 @@
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import joblib
+import numpy as np
+import pandas as pd
+import pytest
+
+from softkin.calibrated_model import CalibratedModel, bundle
+from softkin.datasets.table import to_table, write_table
+from softkin.fitting import fit_quietly, kinematic_model
+from softkin.interface import SUBSETS, Samples, SoftkinError
+from softkin.intervals import INTERVAL_METHODS
+from softkin.models import MODELS
+from tests.conftest import bending_arm
+
+PARAMS = {"kernel": "rbf", "trend": "linear", "max_iter": 15}
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("calibrated")
+    subsets = {subset: bending_arm(150, n_markers=2, seed=place) for place, subset in enumerate(SUBSETS)}
+    write_table(to_table(subsets), folder / "table.parquet")
+    estimator = kinematic_model(MODELS["gp"], PARAMS, skip_constant=True, seed=0, threads=1)
+    fit_quietly(estimator, subsets["train"], 1)
+    joblib.dump(estimator, folder / "model.joblib")
+    return folder
+
+
+def bundled(files: Path, *methods: str) -> CalibratedModel:
+    rows = [{"model": "gp", "preset": "tuned", "interval_method": method} for method in methods]
+    pd.DataFrame(rows).to_csv(files / "choice.csv", index=False)
+    bundle(
+        files / "table.parquet",
+        dataset="arm",
+        choice=files / "choice.csv",
+        specs=MODELS,
+        methods=INTERVAL_METHODS,
+        models={("gp", "tuned"): files / "model.joblib"},
+        output=files / "calibrated.joblib",
+    )
+    stored = joblib.load(files / "calibrated.joblib")
+    assert isinstance(stored, CalibratedModel)
+    return stored
+
+
+@pytest.mark.parametrize("method", ["scp_mapie", "scp_spread", "scp_distance", "cps"])
+def test_it_covers_new_rows(files: Path, method: str) -> None:
+    robot, new = bundled(files, method), bending_arm(400, n_markers=2, seed=9)
+    assert robot.predict(new.commands).shape == (400, 6)
+    bounds = robot.intervals(new.commands, [0.8, 0.95])
+    inside = (bounds[..., 0] <= new.positions) & (new.positions <= bounds[..., 1])
+    assert inside[:, :, 3:].mean(axis=(1, 2)) == pytest.approx([0.8, 0.95], abs=0.06)
+    assert inside[:, :, :3].all()  # the base, which never moves
+    one = robot.intervals(new.commands[0], [0.8])
+    np.testing.assert_allclose(one[0, 0], bounds[0, 0])
+
+
+def test_false_alarms_are_rare_and_a_robot_elsewhere_is_noticed(files: Path) -> None:
+    robot, new = bundled(files, "scp_mapie"), bending_arm(400, n_markers=2, seed=9)
+    single, joint = robot.p_values(new.commands, new.positions)
+    assert single.shape == (400, 6)
+    assert (joint <= 0.1).mean() == pytest.approx(0.1, abs=0.06)
+    assert (single[:, 3:] <= 0.1).mean() == pytest.approx(0.1, abs=0.06)
+    moved = new.positions + np.array([0, 0, 0, 2.0, 0, 0])
+    assert (robot.p_values(new.commands, moved)[1] <= 0.1).mean() > 0.95
+    smooth = robot.p_values(new.commands, new.positions, rng=np.random.default_rng(0))[1]
+    assert ((smooth <= joint) & (joint - smooth <= 1 / 151 + 1e-12)).all()
+
+
+def test_the_box_holds_the_whole_robot_and_says_what_the_p_value_says(files: Path) -> None:
+    robot, new = bundled(files, "scp_mapie"), bending_arm(400, n_markers=2, seed=9)
+    half = robot.box(0.9)
+    assert (half[:3] == 0).all()
+    inside = (np.abs(new.positions - robot.predict(new.commands))[:, 3:] <= half[3:]).all(axis=1)
+    assert inside.mean() == pytest.approx(0.9, abs=0.06)
+    np.testing.assert_array_equal(inside, robot.p_values(new.commands, new.positions)[1] > 0.1)
+
+
+def test_a_learner_of_quantiles_gives_way_to_the_next_best(files: Path) -> None:
+    assert bundled(files, "cqr", "scp_crepes").method.name == "scp_crepes"
+    with pytest.raises(SoftkinError, match="add scp_mapie"):
+        bundled(files, "cqr")
+
+
+def test_wrong_commands_are_refused(files: Path) -> None:
+    robot = bundled(files, "scp_mapie")
+    for wrong in (np.zeros((4, 3)), np.full((1, 2), np.nan)):
+        with pytest.raises(SoftkinError, match=r"arm: expected finite commands of shape \(n_rows, 2\)"):
+            robot.predict(wrong)
+    with pytest.raises(ValueError, match="inhomogeneous"):
+        robot.predict([[1.0], [1.0, 2.0]])  # type: ignore[arg-type]
+    few = replace(robot, validation=Samples(robot.validation.commands[:5], robot.validation.positions[:5]))
+    assert np.isinf(few.intervals(np.zeros(2), [0.9])).all()

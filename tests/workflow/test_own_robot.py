@@ -1,0 +1,40 @@
+"""A robot of one's own goes from its file to its table, and again when the file changes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pandas as pd
+import yaml
+
+from softkin.files import read_json
+from tests.conftest import HOUSE
+from tests.workflow.conftest import House, copy_house
+
+TABLE = "results/arm/table.parquet"
+
+
+def test_an_edited_file_is_read_again_and_an_untouched_one_is_not(tmp_path: Path, mirror: Path) -> None:
+    copy_house(tmp_path / "house")
+    (tmp_path / "work" / "data").mkdir(parents=True)
+    house = House(tmp_path / "house", tmp_path / "work", mirror)
+    file = house.work / "data" / "arm.csv"
+    lines = (HOUSE / "config" / "examples" / "bending_arm.csv").read_text().splitlines()
+    entry = {"title": "Arm", "format": "table_file", "file": "data/arm.csv", "position_unit": "mm"}
+    entry |= {"commands": "p[0-9]_bar", "positions": ".*_[xyz]", "split": {"method": "random"}}
+    more = tmp_path / "more.yaml"
+    more.write_text(yaml.safe_dump({"datasets": ["arm"], "sources": {"arm": entry}, "max_rows_per_subset": None}))
+
+    missing = house.snakemake(TABLE, more=more)
+    assert missing.returncode != 0
+    assert "data/arm.csv" in missing.stdout + missing.stderr
+    assert "Traceback" not in missing.stdout + missing.stderr
+
+    for n_rows in (400, 600):
+        file.write_text("\n".join(lines[: n_rows + 1]) + "\n")
+        done = house.snakemake(TABLE, more=more)
+        assert done.returncode == 0, done.stdout + done.stderr
+        assert len(pd.read_parquet(house.work / TABLE)) == n_rows
+    assert sum(read_json(house.work / "results" / "arm" / "dataset.json")["rows"].values()) == 600
+    again = house.snakemake(TABLE, more=more)
+    assert "Nothing to be done" in again.stdout + again.stderr

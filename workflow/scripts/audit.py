@@ -1,0 +1,17 @@
+"""Rule audit: tidy table -> data card."""
+
+from softkin.auditing.data_card import audit
+from softkin.files import read_json
+from softkin.job import job
+
+dataset = snakemake.wildcards.dataset
+with job(snakemake.log[0], f"audit {dataset}"):
+    audit(
+        snakemake.input.table,
+        dataset=dataset,
+        title=snakemake.params.source["title"],
+        position_unit=snakemake.params.source["position_unit"],
+        data_card=snakemake.output.data_card,
+        readable=snakemake.output.readable,
+        removed=read_json(snakemake.input.description)["removed_from_train"],
+    )
