@@ -15,7 +15,7 @@ from sklearn.model_selection import KFold
 
 from softkin.evidence import Evidences, Run
 from softkin.files import read_json, replacing
-from softkin.interface import MARGINAL, PAPER, Array, Evidence, IntervalMethod, informative_coordinates
+from softkin.interface import MARGINAL, PAPER, Array, Evidence, IntervalMethod, SoftkinError, informative_coordinates
 from softkin.metrics.interval import winkler_scores
 
 logger = logging.getLogger("softkin")
@@ -56,6 +56,9 @@ def choose(
     Candidates are the methods with a marginal guarantee around one of `runs`, and those on quantiles. Each is
     calibrated on four fifths of `validation` and scored on the rest, five times over: the mean Winkler score over
     moving coordinates. Ties go to the method that comes first.
+
+    Raises:
+        SoftkinError: no method is calibrated.
     """
     level = nearest_level(evidences.levels)
     moving = informative_coordinates(evidences.train.positions)
@@ -73,6 +76,11 @@ def choose(
                 scores.append(winkler_scores(evidence.truth[outside], bounds, level)[:, moving].mean(axis=1))
             key = {"model": run[0], "preset": run[1], "interval_method": name, "confidence_level": level}
             rows.append(key | {"cv_winkler_mm": float(np.concatenate(scores).mean())})
+    if not rows:
+        raise SoftkinError(
+            "no configured interval method is calibrated, so none can be chosen\n"
+            "  mend: add scp_mapie to interval_methods"
+        )
     frame = pd.DataFrame(rows).sort_values("cv_winkler_mm", kind="stable", ignore_index=True)
     frame["chosen"] = frame.index == 0
     with replacing(choice) as temporary:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -184,28 +184,52 @@ class RegionMethod:
 
 @dataclass(frozen=True, slots=True)
 class DatasetResults:
-    """Where the results of one dataset lie, for the figures. `intervals` is method -> file; `method_titles` and
-    `on_quantiles` (whether it has a learner of its own) are by method.
+    """Where the results of one dataset lie, for the figures: only of what was run.
+
+    `predictions` is (model, preset) -> file in the order of the pool, `trials` tuned model -> file, `intervals`
+    method -> file; `notes` what a reader of a subset must know. `model_titles` are by model, `method_titles` and
+    `on_quantiles` (whether it has a learner of its own) by method.
     """
 
     dataset: str
     title: str
     table: Path
+    predictions: Mapping[tuple[str, str], Path]
+    trials: Mapping[str, Path]
     intervals: Mapping[str, Path]
+    point: Path
+    interval_metrics: Path
     choice: Path
     conditional: Path
+    notes: Mapping[str, str]
+    model_titles: Mapping[str, str]
     method_titles: Mapping[str, str]
     on_quantiles: Mapping[str, bool]
 
 
 @dataclass(frozen=True, slots=True)
-class FigureSpec:
-    """One figure of a dataset: `frame(results)` is all that it shows, `plot(frame, results)` draws it.
+class CampaignResults:
+    """Where the results across datasets lie, for the figures. `dataset_titles` and `model_titles` are by name."""
 
-    A frame names the runs it shows in columns model, preset, interval_method; an empty one is not drawn.
+    published_comparison: Path
+    dataset_titles: Mapping[str, str]
+    model_titles: Mapping[str, str]
+
+
+Results = TypeVar("Results")
+
+
+@dataclass(frozen=True, slots=True)
+class FigureSpec(Generic[Results]):
+    """One figure: `frame(results)` is all that it shows, `plot(frame, results)` draws it, `caption` tells how to read
+    it.
+
+    A frame names the runs it shows in columns model, preset, interval_method (empty where there is none); an empty
+    one is not drawn.
     """
 
     name: str
     title: str
-    frame: Callable[[DatasetResults], pd.DataFrame]
-    plot: Callable[[pd.DataFrame, DatasetResults], Figure]
+    caption: str
+    frame: Callable[[Results], pd.DataFrame]
+    plot: Callable[[pd.DataFrame, Results], Figure]

@@ -50,8 +50,6 @@ GATHERERS |= {f"standins/{path.name}" for path in (SOURCE / "standins").glob("*.
     "standins/rod.py",
     "standins/robot.py",
 }
-#: All figures have one style.
-GATHERERS |= {f"figures/{name}.py" for name in ("__init__", "drawing", "intervals", "conditional_coverage")}
 GATHERERS |= {"tables/headline.py", "tracking/__init__.py", "tracking/models.py", "tracking/intervals.py"}
 
 #: The page is gathered from its parts.
@@ -60,6 +58,8 @@ GATHERERS |= {
 }
 
 FIGURES = {module.as_posix() for module in MODULES if module.parts[0] == "figures"}
+#: All figures have one style, and read their data alike.
+GATHERERS |= FIGURES
 
 
 def imports(path: Path) -> set[str]:

@@ -4,12 +4,13 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
+import pytest
 
 from softkin.choosing_intervals import choose, model_of_choice, parts, shown_runs
 from softkin.datasets.table import read_subset, to_table, write_table
 from softkin.evidence import Evidences
 from softkin.files import write_json
-from softkin.interface import SUBSETS, Samples
+from softkin.interface import SUBSETS, Samples, SoftkinError
 from softkin.intervals import INTERVAL_METHODS
 from tests.conftest import bending_arm
 from tests.unit.intervals.test_engines import quantile_evidence, spread_evidence
@@ -68,5 +69,8 @@ def test_errors_that_grow_with_the_spread_choose_the_normalised_method(tmp_path:
     assert set(choices[0]["model"]) == {"gp"}
     assert choices[0]["cv_winkler_mm"].is_monotonic_increasing
     assert not {"gaussian", "qr", "cv_plus"} & set(choices[0]["interval_method"])
+    only = {"gaussian": INTERVAL_METHODS["gaussian"]}
+    with pytest.raises(SoftkinError, match="add scp_mapie"):
+        choose(evidences, methods=only, runs=[("gp", "tuned")], seed=0, choice=tmp_path / "never.csv")
     assert read_subset(tmp_path / "t.parquet", "test").positions.min() > 1e5
     assert shown_runs(tmp_path / "0.csv") == {("gb", "paper"), ("gp", "tuned")}

@@ -144,7 +144,7 @@ def test_editing_a_model_reruns_its_jobs_and_no_others(house: House) -> None:
     assert {rule for rule, _ in per_model} == {"tune", "fit_paper", "fit_tuned", "predict"}
     assert all("model=svr" in wildcards for _, wildcards in per_model)
     assert {rule for rule, _ in jobs} - {"tune", "fit_paper", "fit_tuned", "predict"} <= {
-        *("score", "tables", "report", "track"),
+        *("score", "tables", "campaign_figures", "report", "track"),
     }
     assert house.jobs() == []
 
@@ -152,7 +152,7 @@ def test_editing_a_model_reruns_its_jobs_and_no_others(house: House) -> None:
 @pytest.mark.parametrize(
     ("module", "rules"),
     [
-        ("metrics/point.py", {"score", "tables", "track"}),
+        ("metrics/point.py", {"score", "figures", "tables", "track"}),
         ("tables/published.py", {"tables"}),
         ("tracking/store.py", {"track"}),
         ("intervals/split_conformal_crepes.py", INTERVAL_STAGES | {"tables", "track"}),
@@ -166,7 +166,9 @@ def test_editing_a_later_stage_refits_nothing(house: House, module: str, rules: 
     original = file.read_text()
     file.write_text(original + "\n# edited\n")
     try:
-        assert {rule for rule, _ in house.jobs()} == rules | ({"report"} if "tables" in rules else set())
+        assert {rule for rule, _ in house.jobs()} == rules | (
+            {"campaign_figures", "report"} if "tables" in rules else set()
+        )
     finally:
         file.write_text(original)
 

@@ -243,6 +243,7 @@ def final_output():
         HEADLINE,
         "results/tables/paper_tables.md",
         "results/tables/paper_tables.tex",
+        "results/tables/figures",
         *(f"results/tables/{name}" for name in TABLES),
         *expand(
             "results/{dataset}/{name}",

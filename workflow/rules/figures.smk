@@ -1,17 +1,34 @@
-# in:  the intervals of a dataset, what was chosen, its conditional coverage
+from softkin.figures import CAMPAIGN_FIGURES
+
+
+# in:  the predictions, trials, intervals and scores of a dataset
 # out: a folder of figures (PNG, SVG, and CSV of what they show) and an index of the runs that they show
 rule figures:
     input:
         table="results/{dataset}/table.parquet",
         description="results/{dataset}/dataset.json",
         data_card="results/{dataset}/data_card.json",
+        predictions=run_files("predictions.parquet"),
+        trials=run_files("trials.csv", [TUNED]),
         intervals=expand(
             "results/{{dataset}}/intervals/{method}.parquet",
             method=config["interval_methods"],
         ),
+        point="results/{dataset}/point_metrics.csv",
+        interval_metrics="results/{dataset}/interval_metrics.csv",
         choice="results/{dataset}/interval_choice.csv",
         conditional="results/{dataset}/conditional_coverage.csv",
-        code=package("bounds.py", "figures/drawing.py", "figures/style.py"),
+        code=package(
+            "bounds.py",
+            "datasets/table.py",
+            "metrics/point.py",
+            "choosing_intervals.py",
+            "findings.py",
+            "figures/__init__.py",
+            "figures/drawing.py",
+            "figures/reading.py",
+            "figures/style.py",
+        ),
         figure_code=figure_code(),
     output:
         report(
@@ -29,6 +46,29 @@ rule figures:
         SOFTWARE
     threads: 1
     params:
+        runs=every_run(),
+        tuned=[model for model, preset in every_run() if preset == TUNED],
         methods=config["interval_methods"],
+        source=source,
     script:
         "../scripts/figures.py"
+
+
+# in:  the paper's printed cells beside ours
+# out: a folder of the figures across datasets
+rule campaign_figures:
+    input:
+        published_comparison="results/tables/published_comparison.csv",
+        code=package("figures/__init__.py", "figures/drawing.py", "figures/style.py"),
+        figure_code=files_of(spec.plot for spec in CAMPAIGN_FIGURES.values()),
+    output:
+        directory("results/tables/figures"),
+    log:
+        "results/logs/campaign_figures.log",
+    conda:
+        SOFTWARE
+    threads: 1
+    params:
+        titles={name: config["sources"][name]["title"] for name in config["datasets"]},
+    script:
+        "../scripts/campaign_figures.py"

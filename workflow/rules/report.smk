@@ -62,6 +62,7 @@ rule report:
         descriptions=of_every_dataset("results/{dataset}/dataset.json"),
         data_cards=of_every_dataset("results/{dataset}/data_card.json"),
         figures=of_every_dataset("results/{dataset}/figures"),
+        campaign_figures="results/tables/figures",
         records=[record for _, _, record in recorded_jobs()],
         benchmarks=[job[1] for job in recorded_jobs() + unrecorded_jobs()],
         citation=Path(workflow.basedir) / "CITATION.cff",

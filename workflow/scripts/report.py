@@ -18,8 +18,9 @@ with job(snakemake.log[0], "report"):
     build_report(
         tables=given.tables,
         descriptions=dict(zip(datasets, given.descriptions, strict=True)),
-        data_cards=dict(zip(datasets, given.data_cards, strict=True)) if given.data_cards else {},
+        data_cards=dict(zip(datasets, given.data_cards, strict=True)),
         figures=dict(zip(datasets, given.figures, strict=True)),
+        campaign_figures=given.campaign_figures,
         jobs=[Job(*run, Path(benchmark), record and Path(record)) for run, benchmark, record in runs],
         config=params.config,
         model_titles={name: spec.title for name, spec in MODELS.items()},

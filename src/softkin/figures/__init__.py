@@ -1,12 +1,44 @@
-"""Figures of one dataset: one file a kind (frame + plot), one line here."""
+"""Figures: one file a kind (frame + plot), one line here. In the order in which a reader wants them."""
 
 from __future__ import annotations
 
-from softkin.figures import conditional_coverage, intervals
-from softkin.interface import FigureSpec
+from softkin.figures import (
+    calibration,
+    conditional_coverage,
+    distance,
+    distribution,
+    importance,
+    intervals,
+    position_curves,
+    published,
+    ranking,
+    residuals,
+    robot,
+    tuning_history,
+    width,
+    workspace,
+)
+from softkin.interface import CampaignResults, DatasetResults, FigureSpec
 
-FIGURES: dict[str, FigureSpec] = {
+#: Of one dataset.
+FIGURES: dict[str, FigureSpec[DatasetResults]] = {
+    "ranking": ranking.FIGURE,
+    "robot": robot.FIGURE,
+    "position_curves": position_curves.FIGURE,
+    "distribution": distribution.FIGURE,
+    "distance": distance.FIGURE,
+    "workspace": workspace.FIGURE,
+    "residuals": residuals.FIGURE,
     "intervals_paper": intervals.PAPER_RECIPE,
     "intervals_chosen": intervals.CHOSEN_MODEL,
+    "calibration": calibration.FIGURE,
+    "width": width.FIGURE,
     "conditional_coverage": conditional_coverage.FIGURE,
+    "tuning_history": tuning_history.FIGURE,
+    "importance": importance.FIGURE,
+}
+
+#: Across datasets.
+CAMPAIGN_FIGURES: dict[str, FigureSpec[CampaignResults]] = {
+    "published": published.FIGURE,
 }

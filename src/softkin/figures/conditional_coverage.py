@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from softkin.figures.style import BLACK, PALETTE, panels
+from softkin.figures.reading import candidates, chosen
+from softkin.figures.style import BLACK, PALETTE, heading, panels
 from softkin.interface import DatasetResults, FigureSpec
 
 if TYPE_CHECKING:
@@ -26,14 +27,13 @@ MARKS = "osD^vP*X"
 
 
 def frame(results: DatasetResults) -> pd.DataFrame:
-    """Rows of conditional_coverage.csv: of the chosen model and of CQR, with `title` of the method."""
+    """Rows of conditional_coverage.csv: of the chosen model and of the best CQR, with `title` of the method."""
     table = pd.read_csv(results.conditional, dtype={"group": str})
-    choice = pd.read_csv(results.choice)
-    candidates = set(zip(choice["model"], choice["preset"], choice["interval_method"], strict=True))
-    around = choice[~choice["interval_method"].str.startswith("cqr")].iloc[0]
-    cqr = choice[choice["interval_method"] == "cqr"].head(1)
-    kept = {(around["model"], around["preset"], method) for method in table["interval_method"]}
-    kept |= set(zip(cqr["model"], cqr["preset"], cqr["interval_method"], strict=True)) & candidates
+    choice = candidates(results)
+    best = chosen(results)
+    cqr = choice[choice["on_quantiles"]].head(1)
+    kept = {(*best.run, method) for method in table["interval_method"]} if best else set()
+    kept |= set(zip(cqr["model"], cqr["preset"], cqr["interval_method"], strict=True))
     kept = {run for run in kept if run[2] not in LEFT_OUT}
     rows = zip(table["model"], table["preset"], table["interval_method"], strict=True)
     mine = table[np.array([row in kept for row in rows]) & table["by"].isin(PANELS)]
@@ -72,8 +72,15 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     axes[0][0].set_ylim(top=1.02)
     handles, labels = axes[0][0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=4, frameon=False)
-    figure.suptitle(f"{results.title}: is the coverage there everywhere?", fontsize=10)
+    heading(figure, results, "is the coverage there everywhere?")
     return figure
 
 
-FIGURE = FigureSpec("conditional_coverage", "Conditional coverage", frame, plot)
+FIGURE = FigureSpec(
+    "conditional_coverage",
+    "Conditional coverage",
+    "Coverage on test of parts of the rows: by command, position, width, marker, and in the worst slab of command "
+    "space. Bars are two standard errors, the dashed line is the level asked for.",
+    frame,
+    plot,
+)

@@ -8,18 +8,19 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from softkin.bounds import read_bounds
+from softkin.choosing_intervals import PAPERS_RUN
 from softkin.datasets.table import read_subset
-from softkin.figures.style import BLUE, GREY, SKY, VERMILION, panels
-from softkin.interface import PAPER, TEST, TRAIN, DatasetResults, FigureSpec, coordinate_columns
+from softkin.figures.reading import bounds, candidates, shown_coordinate
+from softkin.figures.reading import chosen as chosen_run
+from softkin.figures.style import BLUE, GREY, PAGE, SKY, VERMILION, heading, legend_below, panels
+from softkin.interface import TEST, DatasetResults, FigureSpec
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: The paper's four, and the learner that it uses for all of them.
+#: The paper's four.
 METHODS = ("qr", "cqr", "scp_mapie", "scp_crepes")
-PAPERS_MODEL = "gb"
 
 
 def frame(results: DatasetResults, *, chosen: bool) -> pd.DataFrame:
@@ -29,24 +30,22 @@ def frame(results: DatasetResults, *, chosen: bool) -> pd.DataFrame:
     `train`. `chosen`: around the chosen model instead of the paper's; QR and CQR, which have learners of their own,
     around the paper's learner in the preset of the chosen model.
     """
-    positions = read_subset(results.table, TRAIN).positions
-    coordinate = int(np.argmax(np.ptp(positions, axis=0)))
-    name = coordinate_columns(positions.shape[1] // 3)[coordinate]
+    coordinate, name = shown_coordinate(results)
     true = read_subset(results.table, TEST).positions[:, coordinate]
     order = np.argsort(true, kind="stable")
-    choice = pd.read_csv(results.choice)
-    level = float(choice["confidence_level"].iloc[0])
-    around = choice[~choice["interval_method"].str.startswith("cqr")].iloc[0]
-    model, preset = (around["model"], around["preset"]) if chosen else (PAPERS_MODEL, PAPER)
+    level = float(candidates(results)["confidence_level"].iloc[0])
+    best = chosen_run(results)
+    if chosen and best is None:
+        return pd.DataFrame()
+    model, preset = best.run if chosen and best else PAPERS_RUN
     parts = []
     for method in (method for method in METHODS if method in results.intervals):
-        stored = pd.read_parquet(results.intervals[method])
-        learner = PAPERS_MODEL if results.on_quantiles[method] else model
-        mine = stored[(stored["model"] == learner) & (stored["preset"] == preset)]
-        if mine.empty:
+        learner = PAPERS_RUN[0] if results.on_quantiles[method] else model
+        found = bounds(results, method, (learner, preset), level)
+        if found is None:
             continue
-        bounds = read_bounds(mine, TEST, [level])[0, :, coordinate]
-        part = pd.DataFrame({"true": true, "lower": bounds[:, 0], "upper": bounds[:, 1]}).iloc[order]
+        lower, upper = found[:, coordinate].T
+        part = pd.DataFrame({"true": true, "lower": lower, "upper": upper}).iloc[order]
         part["covered"] = (part["lower"] <= part["true"]) & (part["true"] <= part["upper"])
         key = {"model": learner, "preset": preset, "interval_method": method, "title": results.method_titles[method]}
         parts.append(part.assign(**key, coordinate=name, confidence_level=level))
@@ -56,23 +55,24 @@ def frame(results: DatasetResults, *, chosen: bool) -> pd.DataFrame:
 def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     """Above, positions and intervals as the paper shows them; below, the same from the true position's view."""
     groups = list(frame.groupby("interval_method", sort=False))
-    figure, axes = panels(2, len(groups), 2.9 * len(groups), 5.0, sharex=True, sharey="row")
+    figure, axes = panels(2, len(groups), PAGE, 4.8, sharex=True, sharey="row")
     for column, (_, rows) in enumerate(groups):
         first = rows.iloc[0]
         _draw(axes[0][column], rows, 0.0)
         _draw(axes[1][column], rows, rows["true"].to_numpy())
         width = (rows["upper"] - rows["lower"]).mean()
         axes[0][column].set_title(
-            f"{first['title']}, {first['model']} {first['preset']}\n"
-            f"covers {rows['covered'].mean():.1%}, mean width {width:.3g} mm"
+            f"{first['title']}\n{first['model']} {first['preset']}\n"
+            f"covers {rows['covered'].mean():.1%}\nmean width {width:.3g} mm",
+            fontsize=8,
         )
-        axes[1][column].set_xlabel("test row, sorted by true position")
+        axes[1][column].axhline(0.0, color=GREY, linewidth=0.4)
+        axes[1][column].set_xlabel("row of test, sorted")
     coordinate, level = frame["coordinate"].iloc[0], frame["confidence_level"].iloc[0]
     axes[0][0].set_ylabel(f"{coordinate} (mm)")
     axes[1][0].set_ylabel("distance from truth (mm)")
-    handles, labels = axes[0][0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False)
-    figure.suptitle(f"{results.title}: {level:.0%} intervals of {coordinate}", fontsize=10)
+    legend_below(figure, axes[0][0].get_legend_handles_labels()[0], 3)
+    heading(figure, results, f"{level:.0%} intervals of {coordinate}")
     return figure
 
 
@@ -83,8 +83,20 @@ def _draw(axes: Axes, rows: pd.DataFrame, origin: object) -> None:
     axes.fill_between(place, lower, upper, step="mid", color=SKY, alpha=0.6, linewidth=0, label="interval")
     axes.plot(place, true, color=BLUE, linewidth=1.0, label="true position")
     axes.plot(place[missed], true[missed], ".", color=VERMILION, markersize=4, label="true position, missed")
-    axes.axhline(0.0, color=GREY, linewidth=0.4)
 
 
-PAPER_RECIPE = FigureSpec("intervals_paper", "Intervals around the paper's model", partial(frame, chosen=False), plot)
-CHOSEN_MODEL = FigureSpec("intervals_chosen", "Intervals around the chosen model", partial(frame, chosen=True), plot)
+PAPER_RECIPE = FigureSpec(
+    "intervals_paper",
+    "Intervals around the paper's model",
+    "Intervals of the paper's four methods around gradient boosting with the paper's settings, on test, sorted by true "
+    "position (the paper's Figure 6).",
+    partial(frame, chosen=False),
+    plot,
+)
+CHOSEN_MODEL = FigureSpec(
+    "intervals_chosen",
+    "Intervals around the chosen model",
+    "The same methods around the chosen model; QR and CQR have learners of their own.",
+    partial(frame, chosen=True),
+    plot,
+)

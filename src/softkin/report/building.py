@@ -26,6 +26,8 @@ from softkin.tables.published import summary
 
 logger = logging.getLogger("softkin")
 
+#: Stands for no dataset: names of datasets have no space.
+ALL_ROBOTS = "all robots"
 MAX_BYTES = 10_000_000
 
 
@@ -35,6 +37,7 @@ def build_report(
     descriptions: Mapping[str, str | Path],
     data_cards: Mapping[str, str | Path],
     figures: Mapping[str, str | Path],
+    campaign_figures: str | Path,
     jobs: Sequence[Job],
     config: Mapping[str, Any],
     model_titles: Mapping[str, str],
@@ -45,8 +48,8 @@ def build_report(
     """Write the page `report`, beside which the folders of `figures` lie.
 
     `tables` are files of results/tables; `descriptions`, `data_cards` (may be empty) and `figures` (folders) are by
-    dataset; `config` is the whole checked
-    configuration; `citation` is CITATION.cff at the top of the checkout whose commit is told.
+    dataset, `campaign_figures` is the folder of those across datasets; `config` is the whole checked configuration;
+    `citation` is CITATION.cff at the top of the checkout whose commit is told.
 
     Raises:
         SoftkinError: the page would be larger than 10 MB.
@@ -57,8 +60,8 @@ def build_report(
     sources = {dataset: config["sources"][dataset] for dataset in descriptions}
     marks = Marks(sources, abouts, cards)
     times = measured(jobs)
-    titles = {dataset: about["title"] for dataset, about in abouts.items()}
-    folders = {dataset: Path(folder) for dataset, folder in figures.items()}
+    titles = {ALL_ROBOTS: "All robots"} | {dataset: about["title"] for dataset, about in abouts.items()}
+    folders = {ALL_ROBOTS: Path(campaign_figures)} | {dataset: Path(folder) for dataset, folder in figures.items()}
     page = (
         _environment()
         .get_template("page.html.j2")
@@ -80,6 +83,7 @@ def build_report(
             slowest=slowest_grid(times, model_titles),
             pictures=pictures(folders, titles, Path(report).parent),
             titles=titles,
+            all_robots=ALL_ROBOTS,
             marks=marks,
             subsets=SUBSETS,
         )

@@ -22,6 +22,7 @@ class Picture:
     """`uri` is the picture itself; `file` where its full-size original lies, beside the report."""
 
     title: str
+    caption: str
     alternative: str
     uri: str
     width: int
@@ -37,27 +38,27 @@ def pictures(folders: Mapping[str, Path], titles: Mapping[str, str], beside: Pat
     names is titled after its file.
     """
     named = {dataset: _named(folder) for dataset, folder in folders.items()}
-    count = sum(map(len, named.values()))
+    budget = BUDGET // max(1, sum(map(len, named.values())))
     return {
-        dataset: [_picture(path, title, titles[dataset], BUDGET // count, beside) for path, title in files.items()]
+        dataset: [_picture(path, *words, titles[dataset], budget, beside) for path, words in files.items()]
         for dataset, files in named.items()
     }
 
 
-def _named(folder: Path) -> dict[Path, str]:
-    """PNG -> title."""
-    index = pd.read_csv(folder / "index.csv", dtype=str).drop_duplicates("figure")
-    known = {folder / f"{row.figure}.png": str(row.title) for row in index.itertuples()}
-    others = {path: path.stem.replace("_", " ").capitalize() for path in sorted(folder.glob("*.png"))}
-    return known | {path: title for path, title in others.items() if path not in known}
+def _named(folder: Path) -> dict[Path, tuple[str, str]]:
+    """PNG -> title and caption."""
+    index = pd.read_csv(folder / "index.csv", dtype=str).fillna("").drop_duplicates("figure")
+    known = {folder / f"{row.figure}.png": (str(row.title), str(row.caption)) for row in index.itertuples()}
+    others = {path: (path.stem.replace("_", " ").capitalize(), "") for path in sorted(folder.glob("*.png"))}
+    return known | {path: words for path, words in others.items() if path not in known}
 
 
-def _picture(path: Path, title: str, robot: str, budget: int, beside: Path) -> Picture:
+def _picture(path: Path, title: str, caption: str, robot: str, budget: int, beside: Path) -> Picture:
     with Image.open(path) as image:
         content, is_reduced = _encoded(image, budget * 3 // 4)
         uri = "data:image/webp;base64," + base64.b64encode(content).decode("ascii")
         file = path.relative_to(beside).as_posix()
-        return Picture(title, f"{title}: {robot}", uri, image.width, image.height, file, is_reduced)
+        return Picture(title, caption, f"{title}: {robot}", uri, image.width, image.height, file, is_reduced)
 
 
 def _encoded(image: Image.Image, budget: int) -> tuple[bytes, bool]:

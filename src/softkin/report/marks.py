@@ -48,7 +48,7 @@ class Marks:
                 place = f"{dataset}, {subset}: "
                 marks = [Mark(kind, place + text.strip()) for kind, text in texts.items() if text]
                 marks += [Mark("rows left out", f"{dataset}: {CUT}.")] * bool(about["is_cut"])
-                marks += [Mark("stand-in", f"{dataset}: {STANDIN}.")] * bool(about.get("standin", False))
+                marks += [Mark("stand-in", f"{dataset}: {STANDIN}.")] * (about.get("origin") == "stand-in")
                 self._marks[dataset, subset] = marks
 
     def of(self, dataset: str, subset: str) -> tuple[Mark, ...]:

@@ -117,6 +117,7 @@ def draw(folder: Path) -> None:
     for name in ("intervals_paper", "an_extra_one"):
         Image.fromarray(noise).save(folder / f"{name}.png")
     index = {"figure": ["intervals_paper"] * 2, "title": ["Intervals around the paper's model"] * 2}
+    index["caption"] = ["How to read it."] * 2
     pd.DataFrame(index).to_csv(folder / "index.csv", index=False)
 
 
@@ -133,9 +134,10 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Results:
         sources[dataset] = {"title": dataset.upper(), "file": f"{dataset}.json", "citation": "Someone (2023). Data."}
         about = {"dataset": dataset, "title": f"{dataset.upper()} <made up>", "sha256": "ab" * 32, "n_commands": 2}
         about |= {"n_markers": 1, "rows": dict.fromkeys(SUBSETS, 40), "constant_coordinates": []}
-        about |= {"is_cut": True, "standin": True} if dataset == "finger" else {"is_cut": False}
+        about |= {"is_cut": True, "origin": "stand-in"} if dataset == "finger" else {"is_cut": False}
         write_json(folder / dataset / "dataset.json", about)
         draw(folder / dataset / "figures")
+    draw(folder / "tables" / "figures")
     sources["arm"]["notes"] = {"test": NOTE}
     card = folder / "arm" / "data_card.json"
     write_json(card, CARD)
@@ -161,6 +163,7 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Results:
         "descriptions": {dataset: folder / dataset / "dataset.json" for dataset in ROBOTS},
         "data_cards": {"arm": card},
         "figures": {dataset: folder / dataset / "figures" for dataset in ROBOTS},
+        "campaign_figures": folder / "tables" / "figures",
         "jobs": [
             Job("tune", "arm", "gp", "tuned", benchmark, record),
             Job("intervals", "arm", "", "", benchmark),

@@ -20,6 +20,7 @@ def test_pictures_are_those_of_the_index_then_the_others_and_nothing_is_lost(tmp
     draw(tmp_path / "arm" / "figures")
     first, second = images.pictures({"arm": tmp_path / "arm" / "figures"}, {"arm": "ARM"}, tmp_path)["arm"]
     assert (first.title, second.title) == ("Intervals around the paper's model", "An extra one")
+    assert (first.caption, second.caption) == ("How to read it.", "")
     assert first.alternative == "Intervals around the paper's model: ARM"
     assert first.file == "arm/figures/intervals_paper.png"
     assert (first.width, first.height, first.is_reduced) == (90, 60, False)
@@ -38,5 +39,5 @@ def test_pictures_keep_to_the_budget_and_say_so(tmp_path: Path, monkeypatch: pyt
 
 def test_a_robot_without_figures_has_none(tmp_path: Path) -> None:
     (tmp_path / "figures").mkdir()
-    (tmp_path / "figures" / "index.csv").write_text("figure,title,model,preset,interval_method\n")
+    (tmp_path / "figures" / "index.csv").write_text("figure,title,caption,model,preset,interval_method\n")
     assert images.pictures({"arm": tmp_path / "figures"}, {"arm": "ARM"}, tmp_path) == {"arm": []}

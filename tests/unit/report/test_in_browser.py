@@ -59,11 +59,11 @@ def menu(tab: Any, grid: str, name: str) -> Any:
 def test_every_image_has_loaded_and_says_what_it_is(opened: Any) -> None:
     images = opened().locator("img")
     facts = images.evaluate_all("all => all.map(i => [i.complete && i.naturalWidth > 0, i.alt])")
-    assert len(facts) == 4
+    assert len(facts) == 6
     assert all(loaded for loaded, _ in facts)
     assert [alternative for _, alternative in facts] == [
-        f"{title}: {robot} <made up>"
-        for robot in ("ARM", "FINGER")
+        f"{title}: {robot}"
+        for robot in ("All robots", "ARM <made up>", "FINGER <made up>")
         for title in ("Intervals around the paper's model", "An extra one")
     ]
 

@@ -1,0 +1,87 @@
+"""Which parameters mattered in the studies, as a forest read them from the trials."""
+
+from __future__ import annotations
+
+from textwrap import fill
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+
+from softkin.figures.style import LOOKS, PAGE, heading, panels
+from softkin.interface import TRAIN, TUNED, DatasetResults, FigureSpec
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+#: With fewer complete trials there is nothing to learn from.
+LEAST_TRIALS = 10
+N_COLUMNS = 4
+PREFIX = "param_"
+
+
+def frame(results: DatasetResults) -> pd.DataFrame:
+    """Columns model, preset, interval_method, parameter, importance, spread, n_trials: by how much R2 drops, mean and
+    standard deviation, when a parameter is shuffled among the trials.
+
+    scikit-learn's `permutation_importance` (Breiman 2001, section 10) of a forest of 32 trees that was fitted to the
+    logarithm of the score of all complete trials; models with fewer than `LEAST_TRIALS` of them are left out.
+    """
+    parts = [_importances(pd.read_csv(path)).assign(model=model) for model, path in results.trials.items()]
+    parts = [part for part in parts if len(part)]
+    return pd.concat(parts, ignore_index=True).assign(preset=TUNED, interval_method="") if parts else pd.DataFrame()
+
+
+def _importances(trials: pd.DataFrame) -> pd.DataFrame:
+    from sklearn.ensemble import RandomForestRegressor
+    from sklearn.inspection import permutation_importance
+
+    complete = trials[trials["cv_mae_mm"] > 0]
+    names = [name for name in complete if name.startswith(PREFIX) and complete[name].nunique(dropna=False) > 1]
+    if len(complete) < LEAST_TRIALS or not names:
+        return pd.DataFrame()
+    # Names become numbers; a parameter that a trial does not have is a value of its own.
+    numbers = pd.DataFrame(
+        {
+            name: complete[name] if pd.api.types.is_float_dtype(complete[name]) else pd.factorize(complete[name])[0]
+            for name in names
+        }
+    )
+    score = np.log(complete["cv_mae_mm"])
+    forest = RandomForestRegressor(32, random_state=0).fit(numbers, score)
+    found = permutation_importance(forest, numbers, score, n_repeats=5, random_state=0)
+    columns = {"importance": found.importances_mean, "spread": found.importances_std, "n_trials": len(complete)}
+    table = pd.DataFrame({"parameter": [name.removeprefix(PREFIX) for name in names], **columns})
+    return table.sort_values("importance", kind="stable", ascending=False)
+
+
+def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
+    """A panel for each model, four side by side."""
+    models = list(frame.groupby("model", sort=False))
+    n_columns = min(len(models), N_COLUMNS)
+    n_rows = -(-len(models) // n_columns)
+    figure, axes = panels(n_rows, n_columns, PAGE, 1.0 + 1.9 * n_rows)
+    places = [axis for row in axes for axis in row]
+    for axis in places[len(models) :]:
+        axis.set_axis_off()
+    for axis, (model, rows) in zip(places, models, strict=False):
+        colour, line = LOOKS[str(model)][0], {"linewidth": 0.8}
+        axis.barh(range(len(rows)), rows["importance"], 0.7, xerr=rows["spread"], color=colour, error_kw=line)
+        axis.set_yticks(range(len(rows)), [name.replace("_", "_\n", 1) for name in rows["parameter"]], fontsize=6.5)
+        axis.set_ylim(len(rows) - 0.4, -0.6)
+        axis.set_xlim(left=0)
+        axis.set_title(fill(results.model_titles[str(model)], 16))
+        axis.grid(visible=False, axis="y")
+    figure.supxlabel("permutation importance (drop of R2 of a forest that predicts the score of a trial)", fontsize=9)
+    heading(figure, results, "which parameters mattered in tuning", [TRAIN])
+    return figure
+
+
+FIGURE = FigureSpec(
+    "importance",
+    "Parameter importance",
+    "Which parameters decide the score of a trial: scikit-learn's permutation importance of a forest fitted to the "
+    "complete trials of a study. A few dozen trials tell the large from the small, no more.",
+    frame,
+    plot,
+)
