@@ -84,3 +84,14 @@ def test_the_standard_deviation_holds_its_share_of_new_rows_in_every_coordinate(
     assert inside.mean(axis=0) == pytest.approx([0.9, 0.9], abs=0.06)
     scaled = BoundedGaussianProcess(max_iter=30).fit(X[:300], y[:300] * [1.0, 10.0])
     assert scaled.predict_std(X[300:])[:, 1].mean() > 5 * scaled.predict_std(X[300:])[:, 0].mean()
+
+
+def test_many_rows_are_predicted_in_parts(monkeypatch: pytest.MonkeyPatch) -> None:
+    rng = np.random.default_rng(0)
+    X, y = rng.uniform(-1, 1, (40, 2)), rng.standard_normal((40, 3))
+    model = BoundedGaussianProcess(max_iter=2).fit(X, y)
+    new = rng.uniform(-1, 1, (25, 2))
+    whole = model.predict(new), model.predict_std(new)
+    monkeypatch.setattr("softkin.estimators.bounded_gaussian_process.ROWS_AT_ONCE", 10)
+    for once, parts in zip(whole, (model.predict(new), model.predict_std(new)), strict=True):
+        np.testing.assert_allclose(parts, once, rtol=1e-10)
