@@ -29,6 +29,7 @@ include: "workflow/rules/quantiles.smk"
 include: "workflow/rules/intervals.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/tables.smk"
+include: "workflow/rules/timed_jobs.smk"
 include: "workflow/rules/report.smk"
 include: "workflow/rules/track.smk"
 
