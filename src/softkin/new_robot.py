@@ -65,6 +65,8 @@ WORDS = {
 #: A workspace wider than this is taken to be in mm, for want of robots that large.
 LARGEST_METRES = 5.0
 
+logger = logging.getLogger("softkin")
+
 
 def guess_entry(path: Path, title: str, file: str) -> tuple[dict[str, Any], list[str]]:
     """The entry that the table at `path` probably needs, and in words what it was guessed from. `file` is the path that
@@ -229,12 +231,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--name", help="name of the dataset; the file's name where left out")
     parser.add_argument("--write", action="store_true", help=f"append the entry to {DATASETS}")
     options = parser.parse_args(arguments)
-    logging.basicConfig(level=logging.INFO, format="%(levelname)s: %(message)s", stream=sys.stderr)
+    teller = logging.StreamHandler(sys.stderr)
+    teller.setFormatter(logging.Formatter("%(levelname)s: %(message)s"))
+    logger.addHandler(teller)
+    logger.setLevel(logging.INFO)
     try:
         _run(options.file, options.name, options.write)
     except (SoftkinError, OSError) as error:
         print(f"new_robot: {error}", file=sys.stderr)
         return 2
+    finally:
+        logger.removeHandler(teller)
     return 0
 
 

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import io
 import shutil
 from pathlib import Path
 from typing import Any
@@ -179,3 +180,19 @@ def test_any_header_gives_an_entry_or_a_message(house: Path, header: list[str], 
     rng = np.random.default_rng(rows)
     pd.DataFrame(rng.normal(size=(rows, len(header))), columns=header).to_csv(house / "arm.csv", index=False)
     assert main(["arm.csv"]) in (0, 2)
+
+
+def test_it_tells_where_it_is_told_to_even_the_second_time(
+    house: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A handler that outlives its call would write to a stream that is closed by then."""
+    assert house
+    with io.StringIO() as first, monkeypatch.context() as patched:
+        patched.setattr("sys.stderr", first)
+        guess(capsys, columns("u1", "u2", "x", "y", "z"))
+        assert "INFO: read as utf-8" in first.getvalue()
+    columns("u1", "u2", "x", "y", "z").to_csv("Soft Arm-1.csv", index=False)
+    assert main(["Soft Arm-1.csv"]) == 0
+    told = capsys.readouterr().err
+    assert "INFO: read as utf-8" in told
+    assert "Logging error" not in told
