@@ -43,6 +43,10 @@ def job(log: str, label: str) -> Iterator[None]:
         logger.exception("the job stopped")
         raise
     finally:
+        logger.handlers = []
+        logger.propagate = True
+        logging.captureWarnings(False)
+        logging.getLogger("py.warnings").removeHandler(to_file)
         to_file.close()
 
 

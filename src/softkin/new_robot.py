@@ -235,6 +235,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     teller.setFormatter(logging.Formatter("%(levelname)s: %(message)s"))
     logger.addHandler(teller)
     logger.setLevel(logging.INFO)
+    logger.propagate = False  # it is told once, here, whatever the process has set up for its root
     try:
         _run(options.file, options.name, options.write)
     except (SoftkinError, OSError) as error:
@@ -242,6 +243,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 2
     finally:
         logger.removeHandler(teller)
+        logger.propagate = True
     return 0
 
 

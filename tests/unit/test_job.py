@@ -39,3 +39,12 @@ def test_the_stopwatch_tells_waiting_from_working() -> None:
         time.sleep(0.05)
     assert watch.seconds >= 0.05
     assert watch.cpu_seconds < 0.05
+
+
+def test_it_leaves_the_log_as_it_found_it(tmp_path: Path) -> None:
+    """A handler that outlives its job would write to streams that are closed by then."""
+    with job(str(tmp_path / "a.log"), "a"):
+        assert len(logging.getLogger("softkin").handlers) == 2
+    assert logging.getLogger("softkin").handlers == []
+    assert logging.getLogger("softkin").propagate
+    assert logging.getLogger("py.warnings").handlers == []
