@@ -8,7 +8,6 @@ import softkin
 from softkin.configuration import check_configuration
 from softkin.datasets import READERS, reader_files
 from softkin.datasets.reaching import warning, with_stand_ins
-from softkin.figures import FIGURES
 from softkin.interface import PAPER, PRESETS, SoftkinError, TUNED
 from softkin.intervals import INTERVAL_METHODS
 from softkin.models import MODELS, source_files
@@ -175,6 +174,8 @@ def interval_params():
     }
 
 
+# All figures of a dataset are one job. Not imported: their libraries would be, every time Snakemake starts.
+FIGURE_CODE = sorted((PACKAGE / "figures").glob("*.py"))
 # What decides how stored outputs become what a method sees.
 EVIDENCE_CODE = [
     "evidence.py",
@@ -202,11 +203,6 @@ def interval_code():
 def region_code():
     """The files that define the configured regions."""
     return files_of(REGION_METHODS[name].region for name in config["regions"])
-
-
-def figure_code():
-    """The files that define the figures."""
-    return files_of(spec.plot for spec in FIGURES.values())
 
 
 def quantile_code(wildcards):

@@ -1,6 +1,3 @@
-from softkin.figures import CAMPAIGN_FIGURES
-
-
 # in:  the predictions, trials, intervals and scores of a dataset
 # out: a folder of figures (PNG, SVG, and CSV of what they show) and an index of the runs that they show
 rule figures:
@@ -24,12 +21,8 @@ rule figures:
             "metrics/point.py",
             "choosing_intervals.py",
             "findings.py",
-            "figures/__init__.py",
-            "figures/drawing.py",
-            "figures/reading.py",
-            "figures/style.py",
         ),
-        figure_code=figure_code(),
+        figure_code=FIGURE_CODE,
     output:
         report(
             directory("results/{dataset}/figures"),
@@ -59,8 +52,8 @@ rule figures:
 rule campaign_figures:
     input:
         published_comparison="results/tables/published_comparison.csv",
-        code=package("figures/__init__.py", "figures/drawing.py", "figures/style.py"),
-        figure_code=files_of(spec.plot for spec in CAMPAIGN_FIGURES.values()),
+        code=package("tables/published.py"),
+        figure_code=FIGURE_CODE,
     output:
         directory("results/tables/figures"),
     log:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import gammaln
 
 from softkin.conformal import conformal_limit, error_scale
 from softkin.interface import Array, Region, RegionMethod
@@ -19,7 +19,7 @@ def marker_errors(residuals: Array, markers: NDArray[np.intp]) -> Array:
 
 def log_ball_volume(dimensions: Array) -> Array:
     """Logarithm of the volume of the unit ball in each number of dimensions."""
-    return np.asarray(0.5 * dimensions * np.log(np.pi) - gammaln(0.5 * dimensions + 1))
+    return np.array([0.5 * n * math.log(math.pi) - math.lgamma(0.5 * n + 1) for n in dimensions])
 
 
 def region(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import solve_triangular
 
 from softkin.conformal import conformal_limit, error_scale
 from softkin.interface import Array, Region, RegionMethod
@@ -16,6 +15,8 @@ RIDGE = 1e-9
 
 def region(train_residuals: Array, residuals: Array, markers: NDArray[np.intp], confidence_level: float) -> Region:
     """The largest of the markers' Mahalanobis distances, each in units of that marker's distances on `train`."""
+    from scipy.linalg import solve_triangular
+
     factors = [_cholesky(train_residuals[:, markers == one]) for one in np.unique(markers)]
 
     def distances(rows: Array) -> Array:

@@ -14,7 +14,6 @@ import logging
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from softkin.interface import Array, SoftkinError
 from softkin.standins.cosserat_equations import M, N, Q, R, base_states, cross, march
@@ -44,6 +43,8 @@ def solve(
     Raises:
         SoftkinError: a row for which no stable equilibrium was found; names the row and its loads.
     """
+    from scipy.spatial.transform import Rotation
+
     turn = Rotation.identity() if base_rotation is None else Rotation.from_matrix(base_rotation)
     quaternion = turn.as_quat(scalar_first=True)
     shapes = []

@@ -6,7 +6,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import qmc
 
 from softkin.interface import Array
 
@@ -34,11 +33,15 @@ def evenly(n_rows: int, n_commands: int, rng: np.random.Generator) -> Array:
     In its own order each point lies away from the one before, so that a robot with hysteresis would approach every
     command from one side.
     """
+    from scipy.stats import qmc
+
     return rng.permutation(qmc.Halton(n_commands, scramble=True, rng=rng).random(n_rows))
 
 
 def in_box(n_rows: int, lower: Sequence[float], upper: Sequence[float], rng: np.random.Generator) -> Array:
     """Commands (n_rows, n_commands) between `lower` and `upper`, each (n_commands,)."""
+    from scipy.stats import qmc
+
     return np.asarray(qmc.scale(evenly(n_rows, len(lower), rng), lower, upper))
 
 
