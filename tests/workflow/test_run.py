@@ -231,7 +231,8 @@ def test_out_of_reach_a_stand_in_takes_the_place_and_the_published_data_return(h
     override["datasets"] = ["finger"]
     (tmp_path / "mirror" / "override.yaml").write_text(yaml.safe_dump(override))
     alone = House(house.root, tmp_path, tmp_path / "mirror")
-    done = alone.snakemake("results/finger_standin/data_card.json")
+    small = ["models=[lr]", "presets=[paper]", "interval_methods=[scp_mapie]", "regions=[]"]
+    done = alone.snakemake("--config", *small)
     output = done.stdout + done.stderr
     assert done.returncode == 0, output[-3000:]
     assert output.count("STAND-INS: finger cannot be reached") == 2
@@ -239,6 +240,8 @@ def test_out_of_reach_a_stand_in_takes_the_place_and_the_published_data_return(h
     assert about["origin"] == "stand-in"
     assert "STAND-IN" in about["title"]
     assert about["rows"] == dict(zip(SUBSETS, (120, 88, 89, 120), strict=True))
+    assert "STAND-IN" in (tmp_path / "results" / "report.html").read_text()
+    assert "nothing was run that the paper has printed" in output
     fail = alone.snakemake("results/finger/table.parquet", "--config", "when_unreachable=fail")
     assert fail.returncode != 0
     assert "SOFTKIN_DATA_MIRROR" in fail.stdout + fail.stderr

@@ -53,10 +53,11 @@ def settings(config: Mapping[str, Any]) -> str:
 
 
 def citations(cff: Path, sources: Mapping[str, Mapping[str, Any]]) -> list[str]:
-    """What to cite: softkin and what it implements, from CITATION.cff, then the data, as each entry asks; once each."""
+    """What to cite: softkin and what it implements, from CITATION.cff, then the data, as an entry asks; once each."""
     content = yaml.safe_load(cff.read_text(encoding="utf-8"))
     works = [content, *(entry for entry in content.get("references", []) if entry["type"] != "data")]
-    return list(dict.fromkeys([*map(_citation, works), *(entry["citation"].strip() for entry in sources.values())]))
+    asked = [entry["citation"].strip() for entry in sources.values() if "citation" in entry]
+    return list(dict.fromkeys([*map(_citation, works), *asked]))
 
 
 def _citation(work: Mapping[str, Any]) -> str:

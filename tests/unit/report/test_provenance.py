@@ -53,3 +53,10 @@ def test_citations_of_the_house_and_of_each_dataset_once() -> None:
     assert cited.count("Someone (2023).") == 1
     assert cited[0].startswith("The softkin authors. softkin")
     assert any("Jiang, Zhanhong; Shah, Dylan" in text for text in cited)
+
+
+def test_a_robot_that_asks_for_no_citation_has_none(tmp_path: Path) -> None:
+    """One's own, or a stand-in."""
+    cff = tmp_path / "CITATION.cff"
+    cff.write_text("title: softkin\nauthors: [{name: The authors}]\n")
+    assert citations(cff, {"my_arm": {"title": "My arm"}}) == ["The authors. softkin."]
