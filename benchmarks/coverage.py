@@ -23,11 +23,21 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from softkin.choosing_intervals import PAPERS_RUN, resplit
+from softkin.choosing_intervals import resplit
 from softkin.conformal import conformal_rank
 from softkin.datasets.table import read_subset
 from softkin.evidence import Evidences
-from softkin.interface import MARGINAL, SUBSETS, TEST, TRAIN, VALIDATION, Array, Evidence, informative_coordinates
+from softkin.interface import (
+    MARGINAL,
+    PAPERS_RUN,
+    SUBSETS,
+    TEST,
+    TRAIN,
+    VALIDATION,
+    Array,
+    Evidence,
+    informative_coordinates,
+)
 from softkin.intervals import INTERVAL_METHODS
 from softkin.metrics.interval import covered
 from softkin.regions import REGION_METHODS

@@ -15,26 +15,33 @@ from sklearn.model_selection import KFold
 
 from softkin.evidence import Evidences, Run
 from softkin.files import read_json, replacing
-from softkin.interface import MARGINAL, PAPER, Array, Evidence, IntervalMethod, SoftkinError, informative_coordinates
+from softkin.interface import (
+    MARGINAL,
+    PAPERS_LEVEL,
+    PAPERS_RUN,
+    Array,
+    Evidence,
+    IntervalMethod,
+    SoftkinError,
+    informative_coordinates,
+)
 from softkin.metrics.interval import winkler_scores
+from softkin.tables.selection import selection
 
 logger = logging.getLogger("softkin")
 
-#: The level at which methods are compared is the configured one nearest to this, the paper's.
-COMPARED_LEVEL = 0.9
 N_FOLDS = 5
-#: The paper's recipe is gradient boosting, untuned.
-PAPERS_RUN: Run = ("gb", PAPER)
 
 
 def nearest_level(confidence_levels: list[float]) -> float:
-    """The configured level nearest to the paper's."""
-    return min(confidence_levels, key=lambda level: abs(level - COMPARED_LEVEL))
+    """The configured level nearest to the paper's: methods are compared at it."""
+    return min(confidence_levels, key=lambda level: abs(level - PAPERS_LEVEL))
 
 
 def model_of_choice(parameters: Mapping[str, str | Path]) -> str:
     """The tuned model of lowest cross-validated error on `train`; `parameters` is model -> file of its study."""
-    return min(parameters, key=lambda model: float(read_json(parameters[model])["cv_mae_mm"]))
+    scores = {("", model): float(read_json(file)["cv_mae_mm"]) for model, file in parameters.items()}
+    return str(selection(scores)["model"].iloc[0])
 
 
 def shown_runs(choice: str | Path) -> set[Run]:

@@ -41,6 +41,11 @@ def error_scale(train_errors: Array) -> Array:
     return np.maximum(typical, 1e-6 * largest) if largest > 0 else np.ones(train_errors.shape[1])
 
 
+def joint_scores(residuals: Array, scale: Array) -> Array:
+    """Nonconformity of a whole pose (n_rows,): its largest residual (n_rows, n_coordinates) in units of a scale."""
+    return np.asarray((np.abs(residuals) / scale).max(axis=1))
+
+
 def two_sided_rank(n_calibration: int, confidence_level: float) -> int | None:
     """The rank of an interval that leaves out alpha/2 on either side: of n + 1 places those between the two bounds.
 

@@ -24,6 +24,9 @@ Params = dict[str, Any]
 
 TRAIN, VALIDATION, TEST, EXTRAPOLATION = SUBSETS = ("train", "validation", "test", "extrapolation")
 PAPER, TUNED = PRESETS = ("paper", "tuned")
+#: What the paper puts its intervals around, (model, preset), and at which level.
+PAPERS_RUN = ("gb", PAPER)
+PAPERS_LEVEL = 0.9
 
 #: A coordinate whose range on `train` stays below this (mm) is constant: it says nothing about a model.
 CONSTANT_RANGE_MM = 1e-6

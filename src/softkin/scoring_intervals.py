@@ -163,7 +163,7 @@ def _check_winkler(setting: _Setting, bounds: Array, winkler: Array) -> None:
     if (winkler.mean(axis=0) < least * (1 - 1e-6)).any():
         raise SoftkinError(
             f"intervals by '{setting.method.name}': a mean Winkler score lies below twice the mean absolute error, "
-            "which no symmetric interval of constant width can have; mend: delete results/{dataset}/intervals and rerun"
+            "which no symmetric interval of constant width can have; mend: delete results/<dataset>/intervals and rerun"
         )
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from softkin.conformal import conformal_rank, error_scale, p_values
+from softkin.conformal import conformal_rank, error_scale, joint_scores, p_values
 from softkin.evidence import INTERVAL_SUBSETS, Evidences, Run, predicted_rows
 from softkin.files import replacing
 from softkin.interface import (
@@ -98,11 +98,6 @@ def _coverages(
         }
 
 
-def joint_scores(train_residuals: Array, residuals: Array) -> Array:
-    """Nonconformity of a whole pose (n_rows,): its largest residual in units of the errors on `train`."""
-    return np.asarray((np.abs(residuals) / error_scale(np.abs(train_residuals))).max(axis=1))
-
-
 def alarm_rates(
     residuals: Mapping[str, Array], markers: NDArray[np.intp], level: float, seed: int
 ) -> Iterator[dict[str, Any]]:
@@ -113,6 +108,7 @@ def alarm_rates(
     """
     alpha = round(1 - level, 12)
     calibration = residuals[VALIDATION]
+    scale = error_scale(np.abs(residuals[TRAIN]))
     for subset in INTERVAL_SUBSETS:
         direction = np.random.default_rng(seed).standard_normal((len(residuals[subset]), 3))
         direction /= np.linalg.norm(direction, axis=1, keepdims=True)
@@ -120,7 +116,7 @@ def alarm_rates(
             axes = _axes(markers)
             moved = residuals[subset] + displacement * direction[:, axes]
             single = p_values(np.abs(calibration), np.abs(moved)) <= alpha
-            scores = (joint_scores(residuals[TRAIN], rows) for rows in (calibration, moved))
+            scores = (joint_scores(rows, scale) for rows in (calibration, moved))
             joint = p_values(*scores) <= alpha
             low, high = clopper_pearson(int(joint.sum()), len(joint))
             yield {

@@ -12,6 +12,7 @@ from softkin.datasets.table import read_subset
 from softkin.files import replacing, write_json
 from softkin.folds import Folds
 from softkin.interface import (
+    PAPERS_LEVEL,
     TRAIN,
     Array,
     Params,
@@ -26,8 +27,6 @@ from softkin.tuning import TuningSettings, tune
 
 #: A study sees this many moving coordinates, evenly spread over the robot: each costs a model of its own.
 MAX_COORDINATES = 3
-#: The pair of quantiles that is tuned for, and serves all levels: the paper's.
-TUNED_LEVEL = 0.9
 
 
 def some_coordinates(samples: Samples) -> Samples:
@@ -46,13 +45,13 @@ def some_coordinates(samples: Samples) -> Samples:
 def pinball_errors(
     spec: QuantileSpec, params: Params, samples: Samples, folds: Folds, seed: int, threads: int
 ) -> Iterator[float]:
-    """Mean pinball loss (mm) of the tuned pair of quantiles, fold by fold; everything is fitted inside the fold."""
+    """Mean pinball loss (mm) of the pair of quantiles of the paper's level, fold by fold, all fitted inside it."""
     for inside, outside in folds:
-        model = QuantileModel(spec, params, [TUNED_LEVEL], seed, threads)
+        model = QuantileModel(spec, params, [PAPERS_LEVEL], seed, threads)
         with threadpool_limits(threads):
             model.fit(Samples(samples.commands[inside], samples.positions[inside]))
         quantiles: Array = model.predict(samples.commands[outside])[0]
-        alpha = 1 - TUNED_LEVEL
+        alpha = 1 - PAPERS_LEVEL
         losses = [
             pinball_losses(samples.positions[outside], quantiles[..., side], quantile).mean()
             for side, quantile in enumerate((alpha / 2, 1 - alpha / 2))

@@ -101,7 +101,12 @@ def cleaning_code(wildcards):
     """The files that decide which rows of train are dropped, where the entry asks for it."""
     names = ("cleaning", "duplicate_rows", "stuck_poses")
     return (
-        package(*(f"auditing/{name}.py" for name in names))
+        package(
+            "findings.py",
+            "rows.py",
+            "smooth_fit.py",
+            *(f"auditing/{name}.py" for name in names),
+        )
         if source(wildcards).get("clean")
         else []
     )

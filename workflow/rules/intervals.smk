@@ -36,6 +36,7 @@ rule intervals:
             "calibrating.py",
             "choosing_intervals.py",
             "metrics/interval.py",
+            "tables/selection.py",
         ),
         interval_code=interval_code(),
     output:

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from softkin.choosing_intervals import PAPERS_RUN
 from softkin.datasets.table import read_subset
 from softkin.figures.reading import Run, candidates, chosen
 from softkin.figures.style import BLACK, LIGHT, LOOKS, PAGE, heading, legend_below, panels, sample
 from softkin.interface import (
+    PAPERS_RUN,
     TEST,
     TRAIN,
     DatasetResults,

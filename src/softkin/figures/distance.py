@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from softkin.choosing_intervals import PAPERS_RUN
 from softkin.datasets.table import read_subset
 from softkin.figures.reading import chosen, mean_marker_errors
 from softkin.figures.style import (
@@ -21,7 +20,7 @@ from softkin.figures.style import (
     panels,
     sample,
 )
-from softkin.interface import EXTRAPOLATION, TEST, TRAIN, Array, DatasetResults, FigureSpec
+from softkin.interface import EXTRAPOLATION, PAPERS_RUN, TEST, TRAIN, Array, DatasetResults, FigureSpec
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

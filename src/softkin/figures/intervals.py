@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from softkin.choosing_intervals import PAPERS_RUN
 from softkin.datasets.table import read_subset
 from softkin.figures.reading import bounds, candidates, shown_coordinate
 from softkin.figures.reading import chosen as chosen_run
 from softkin.figures.style import BLUE, GREY, PAGE, SKY, VERMILION, heading, legend_below, panels
-from softkin.interface import TEST, DatasetResults, FigureSpec
+from softkin.interface import PAPERS_RUN, TEST, DatasetResults, FigureSpec
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

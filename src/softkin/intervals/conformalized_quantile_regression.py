@@ -16,10 +16,7 @@ from softkin.conformal import (
     unbounded,
     uncrossed,
 )
-from softkin.interface import MARGINAL, Array, Evidence, IntervalMethod
-
-#: The pair of quantiles that is corrected is that of the level nearest to this one, the paper's.
-BASE_LEVEL = 0.9
+from softkin.interface import MARGINAL, PAPERS_LEVEL, Array, Evidence, IntervalMethod
 
 
 def intervals(evidence: Evidence, confidence_levels: Sequence[float], *, symmetric: bool = True) -> Array:
@@ -37,7 +34,8 @@ def intervals(evidence: Evidence, confidence_levels: Sequence[float], *, symmetr
 
     n = len(evidence.truth)
     result = unbounded(len(confidence_levels), evidence.new.shape[1:-1])
-    base = int(np.argmin(np.abs(np.asarray(confidence_levels) - BASE_LEVEL)))
+    # The pair of quantiles that is corrected is that of the level nearest to the paper's.
+    base = int(np.argmin(np.abs(np.asarray(confidence_levels) - PAPERS_LEVEL)))
     pairs, new_pairs = (_with_middle(uncrossed(quantiles[base])) for quantiles in (evidence.calibration, evidence.new))
     for place, level in enumerate(confidence_levels):
         side = level if symmetric else round(1 - (1 - level) / 2, 12)

@@ -6,10 +6,10 @@ from collections.abc import Mapping
 
 import pandas as pd
 
-from softkin.interface import PAPER, TEST
+from softkin.interface import PAPERS_RUN, TEST
 
-#: What the paper uses: split conformal prediction around untuned gradient boosting.
-PAPERS = {"model": "gb", "preset": PAPER, "interval_method": "scp_mapie"}
+#: What the paper puts around its model.
+PAPERS_METHOD = "scp_mapie"
 SHOWN = ("coverage", "mean_width_mm", "winkler_mm")
 
 
@@ -24,7 +24,7 @@ def interval_choice(candidates: Mapping[str, pd.DataFrame], metrics: pd.DataFram
     for dataset, frame in candidates.items():
         mine = frame.assign(dataset=dataset).join(test, on=key)
         level = float(mine["confidence_level"].iloc[0])
-        papers = (dataset, *PAPERS.values(), level)
+        papers = (dataset, *PAPERS_RUN, PAPERS_METHOD, level)
         reference = float(test.loc[papers, "test_winkler_mm"]) if papers in test.index else float("nan")
         mine["winkler_ratio_to_paper"] = mine["test_winkler_mm"] / reference
         frames.append(mine[["dataset", *(name for name in mine if name != "dataset")]])

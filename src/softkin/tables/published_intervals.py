@@ -7,15 +7,13 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from softkin.interface import PAPER, TEST
+from softkin.interface import PAPERS_LEVEL, PAPERS_RUN, TEST
 from softkin.tables.paper_layout import PaperTable, format_number
 from softkin.tables.published import unit
 
 KEY = ["dataset", "interval_method"]
 METRICS = {"coverage": "Coverage", "winkler_mm": "Winkler score (mm)"}
 AVERAGES = ("mean", "mean_informative", "joint")
-#: The paper's alpha is 0.1, and its interval table is on gradient boosting.
-LEVEL, MODEL = 0.9, "gb"
 #: What a printed column may have been: its package's methods.
 MAY_BE = {
     "qr": ("qr",),
@@ -49,9 +47,9 @@ def compare_intervals(published: pd.DataFrame, metrics: pd.DataFrame, point: pd.
         there = test[test["dataset"] == printed["dataset"]]
         mine = there[there["interval_method"] == printed["interval_method"]]
         honest = mine[
-            (mine["model"] == MODEL)
-            & (mine["preset"] == PAPER)
-            & (mine["confidence_level"] == LEVEL)
+            (mine["model"] == PAPERS_RUN[0])
+            & (mine["preset"] == PAPERS_RUN[1])
+            & (mine["confidence_level"] == PAPERS_LEVEL)
             & (mine["coordinate"] == "mean_informative")
         ]
         if honest.empty:
@@ -98,7 +96,7 @@ def _explanation(printed: dict[str, str], ours: float, metric: str, nearest: pd.
     if metric != "winkler_mm" or not printed["interval_method"].startswith("scp"):
         return f"average over moving coordinates {format_number(ours)}; {where}"
     chosen = (point["dataset"] == printed["dataset"]) & (point["subset"] == TEST)
-    scores = point[chosen & (point["model"] == MODEL) & (point["preset"] == PAPER)]
+    scores = point[chosen & (point["model"] == PAPERS_RUN[0]) & (point["preset"] == PAPERS_RUN[1])]
     least = 2 * float(scores["mae_informative_mm"].iloc[0])
     bound = f"an average cannot be below 2 MAE = {format_number(least)} mm"
     verdict = (
