@@ -134,6 +134,31 @@ class RefitEvidence:
     new: Array
 
 
+@dataclass(frozen=True, slots=True)
+class Shell:
+    """What a model fitted on the inner core of `train` predicts of the shell around it.
+
+    `predicted` and `truth` are (n_shell, n_coordinates) in mm, `core_commands` and `commands` (n_rows, n_commands).
+    """
+
+    core_commands: Array
+    commands: Array
+    predicted: Array
+    truth: Array
+
+
+@dataclass(frozen=True, slots=True)
+class ShellEvidence:
+    """What a method for commands outside `train` sees: the `deployed` model, fitted on all of `train`, and the same
+    model fitted on its cores, the smallest first. `norm` takes commands (n_rows, n_commands) to how far out they lie
+    (n_rows,).
+    """
+
+    deployed: Evidence
+    shells: Sequence[Shell]
+    norm: Callable[[Array], Array]
+
+
 #: What an interval promises of a new row exchangeable with those it was calibrated on, coordinate by coordinate.
 MARGINAL, WEAK, NO_GUARANTEE = GUARANTEES = ("marginal", "marginal at 1 - 2 alpha", "no guarantee")
 

@@ -21,7 +21,7 @@ MODULES = sorted(path.relative_to(SOURCE) for path in SOURCE.rglob("*.py"))
 #: Lower floors first; a module imports from floors below it, and within its own folder only where listed here.
 FLOORS = [
     {"interface", "__init__"},
-    {"files", "job", "conformal", "bounds", "folds", "findings", "rows", "standins"},
+    {"files", "job", "conformal", "bounds", "folds", "findings", "rows", "shells", "standins"},
     {
         "configuration",
         "datasets",
