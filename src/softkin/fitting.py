@@ -6,24 +6,24 @@ import logging
 import statistics
 import time
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import joblib
 import numpy as np
 import pandas as pd
-from sklearn.compose import TransformedTargetRegressor
 from sklearn.exceptions import ConvergenceWarning
 from sklearn.pipeline import make_pipeline
 from sklearn.preprocessing import StandardScaler
 from threadpoolctl import threadpool_limits
 
 from softkin.datasets.table import read_subset
-from softkin.estimators.position_scaler import PositionScaler
+from softkin.estimators.kinematic_regressor import KinematicRegressor
 from softkin.files import replacing, write_json
 from softkin.interface import SUBSETS, TEST, TRAIN, Array, ModelSpec, Params, Samples, coordinate_columns
 from softkin.job import stopwatch
+from softkin.target_spaces import TARGET_SPACES
 
 logger = logging.getLogger("softkin")
 
@@ -31,12 +31,23 @@ logger = logging.getLogger("softkin")
 STANDARD_DEVIATION, SPREAD = "std_", "spread_"
 
 
-def kinematic_model(spec: ModelSpec, params: Params, *, skip_constant: bool, seed: int, threads: int) -> Any:
-    """Unfitted regressor commands -> positions in mm; both are standardised inside, by what it is fitted on."""
-    return TransformedTargetRegressor(
+def kinematic_model(
+    spec: ModelSpec,
+    params: Params,
+    *,
+    skip_constant: bool,
+    seed: int,
+    threads: int,
+    target_space: str = "cartesian",
+    base: Mapping[str, Any] | None = None,
+) -> Any:
+    """Unfitted regressor commands -> positions in mm; both are standardised inside, by what it is fitted on.
+
+    `base` is what the dataset's entry declares of the robot's base, for a target space that needs to know it.
+    """
+    return KinematicRegressor(
         make_pipeline(StandardScaler(), spec.build(params, seed, threads)),
-        transformer=PositionScaler(skip_constant),
-        check_inverse=False,
+        TARGET_SPACES[target_space].transformer(skip_constant, base),
     )
 
 
@@ -73,6 +84,8 @@ def fit(
     threads: int,
     model: str | Path,
     record: str | Path,
+    target_space: str = "cartesian",
+    base: Mapping[str, Any] | None = None,
     max_rows: int | None = None,
 ) -> None:
     """Fit on `train` of `table`; write the fitted `model` (joblib) and a `record` (JSON) of what it took.
@@ -80,7 +93,9 @@ def fit(
     `max_rows` bounds the rows of a model that cannot take more: the rest is left out at random, and the log says so.
     """
     samples = some_rows(read_subset(table, TRAIN), max_rows, seed)
-    estimator = kinematic_model(spec, params, skip_constant=skip_constant, seed=seed, threads=threads)
+    estimator = kinematic_model(
+        spec, params, skip_constant=skip_constant, seed=seed, threads=threads, target_space=target_space, base=base
+    )
     with stopwatch() as watch:
         stopped = fit_quietly(estimator, samples, threads)
     with replacing(model) as temporary:
@@ -90,6 +105,8 @@ def fit(
         {
             "params": params,
             "skip_constant": skip_constant,
+            "target_space": target_space,
+            "base": base,
             "n_train": len(samples),
             "solvers_at_iteration_bound": stopped,
             "fit_seconds": watch.seconds,
@@ -105,7 +122,7 @@ def spread_of(spec: ModelSpec, estimator: Any, train: Samples, commands: Array) 
     scaler, regressor = estimator.regressor_[0], estimator.regressor_[-1]
     known = Samples(scaler.transform(train.commands), estimator.transformer_.transform(train.positions))
     spread = spec.spread(regressor, known, scaler.transform(commands))
-    return np.asarray(estimator.transformer_.inverse_spread(spread))
+    return np.asarray(estimator.transformer_.inverse_spread(estimator.targets(commands), spread))
 
 
 def predict(
@@ -122,13 +139,14 @@ def predict(
     it is a predictive standard deviation, else spread_m1_x...
     """
     estimator = joblib.load(model)
+    train = read_subset(table, TRAIN)
     frames = []
     with threadpool_limits(threads):
         for subset in SUBSETS:
-            commands = read_subset(table, subset).commands
+            commands = (train if subset == TRAIN else read_subset(table, subset)).commands
             frames.append(_frame(subset, np.asarray(estimator.predict(commands))))
             if spec.spread is not None:
-                spread = _frame(subset, spread_of(spec, estimator, read_subset(table, TRAIN), commands))
+                spread = _frame(subset, spread_of(spec, estimator, train, commands))
                 prefix = STANDARD_DEVIATION if spec.is_predictive else SPREAD
                 frames[-1] = pd.concat([frames[-1], spread.iloc[:, 1:].add_prefix(prefix)], axis=1)
             if subset == TEST:

@@ -23,7 +23,10 @@ Array = NDArray[np.float64]
 Params = dict[str, Any]
 
 TRAIN, VALIDATION, TEST, EXTRAPOLATION = SUBSETS = ("train", "validation", "test", "extrapolation")
-PAPER, TUNED = PRESETS = ("paper", "tuned")
+#: Where a model's parameters are from: the paper; a search for the lowest error at commands like those of `train`; or
+#: at commands beyond them.
+PAPER, TUNED, OUTER = PRESETS = ("paper", "tuned", "outer")
+SEARCHED = (TUNED, OUTER)
 #: What the paper puts its intervals around, (model, preset), and at which level.
 PAPERS_RUN = ("gb", PAPER)
 PAPERS_LEVEL = 0.9
@@ -52,11 +55,12 @@ class ModelSpec:
     """One model of the pool.
 
     `build(params, seed, threads)` returns an unfitted multi-output scikit-learn regressor that works in
-    standardised space. `paper_params` are the fixed settings of the paper's rows. `search_space(trial)` draws the
-    parameters of a tuned model; `first_trials` are drawn before it samples on its own. `spread(regressor, train,
-    commands)`, if the model has one, is what it says itself of its uncertainty: (n_rows, n_coordinates), everything
-    standardised; `is_predictive` that this is the standard deviation of a whole predictive distribution.
-    `is_cheap` admits it to the methods that refit (CV+, jackknife+-after-bootstrap).
+    standardised space. `paper_params` are the fixed settings of the paper's rows, or scikit-learn's own for a model
+    that the paper does not have. `search_space(trial)` draws the parameters of a searched model; `first_trials` are
+    drawn before it samples on its own. `spread(regressor, train, commands)`, if the model has one, is what it says
+    itself of its uncertainty: (n_rows, n_targets), everything standardised; `is_predictive` that this is the standard
+    deviation of a whole predictive distribution. `is_cheap` admits it to the methods that refit (CV+,
+    jackknife+-after-bootstrap).
     """
 
     name: str
@@ -69,6 +73,21 @@ class ModelSpec:
     spread: Callable[[Any, Samples, Array], Array] | None = None
     is_predictive: bool = False
     is_cheap: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class TargetSpace:
+    """What a model is fitted to in place of positions in mm.
+
+    `transformer(skip_constant, base)` returns an unfitted invertible transformer: `fit(positions, commands)`,
+    `transform(positions)`, `inverse_transform(targets)`, `inverse_spread(targets, spread)`; positions (n_rows,
+    n_coordinates) in mm, targets (n_rows, n_targets) standardised. `base` is what the dataset's entry declares of the
+    base.
+    """
+
+    name: str
+    title: str
+    transformer: Callable[[bool, Mapping[str, Any] | None], Any]
 
 
 def command_columns(n_commands: int) -> list[str]:
@@ -158,6 +177,11 @@ class ShellEvidence:
     shells: Sequence[Shell]
     norm: Callable[[Array], Array]
 
+    @property
+    def truth(self) -> Array:
+        """That of the deployed model's calibration rows."""
+        return self.deployed.truth
+
 
 #: What an interval promises of a new row exchangeable with those it was calibrated on, coordinate by coordinate.
 MARGINAL, WEAK, NO_GUARANTEE = GUARANTEES = ("marginal", "marginal at 1 - 2 alpha", "no guarantee")
@@ -168,7 +192,7 @@ class IntervalMethod:
     """One way to put an interval around a predicted position.
 
     `on` says what it starts from: `predictions`, `spreads` (predictions of a model with a spread), `predictive`
-    (of one whose spread is a standard deviation), `quantiles`, `folds` or `resamples`. `intervals(evidence,
+    (of one whose spread is a standard deviation), `quantiles`, `folds`, `resamples` or `shells`. `intervals(evidence,
     confidence_levels)` returns (n_levels, n_rows, n_coordinates, 2), lower and upper in mm, levels ascending.
     `guarantee` is one of `GUARANTEES`. `rank(n_calibration, level)` is what the law of its coverage on exchangeable
     rows follows from; None when the method calibrates nothing. `has_constant_width`: the same half-width to both
@@ -229,6 +253,7 @@ class DatasetResults:
     interval_metrics: Path
     choice: Path
     conditional: Path
+    outside: Path
     notes: Mapping[str, str]
     model_titles: Mapping[str, str]
     method_titles: Mapping[str, str]

@@ -6,6 +6,7 @@ import logging
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -76,15 +77,9 @@ def refit(
         for kind, rows in (("folds", [inside for inside, _ in folds]), ("resamples", resamples)):
             predicted = []
             for inside in rows:
-                estimator = kinematic_model(
-                    spec,
-                    record["params"],
-                    skip_constant=record["skip_constant"],
-                    seed=settings.seed,
-                    threads=threads,
-                )
+                samples = Samples(train.commands[inside], train.positions[inside])
                 with stopwatch() as watch:
-                    fit_quietly(estimator, Samples(train.commands[inside], train.positions[inside]), threads)
+                    estimator = refitted(spec, record, samples, seed=settings.seed, threads=threads)
                 cpu_seconds += watch.cpu_seconds
                 predicted.append(estimator.predict(everywhere))
             arrays["/".join((*run, kind))] = np.stack(predicted)
@@ -92,6 +87,21 @@ def refit(
     arrays["fit_cpu_seconds"] = np.array(cpu_seconds)
     with replacing(refits) as temporary, temporary.open("wb") as file:
         np.savez_compressed(file, **arrays)  # type: ignore[arg-type]
+
+
+def refitted(spec: ModelSpec, record: Mapping[str, Any], samples: Samples, *, seed: int, threads: int) -> Any:
+    """The model of a fit `record`, fitted on other samples with the same parameters."""
+    estimator = kinematic_model(
+        spec,
+        record["params"],
+        skip_constant=record["skip_constant"],
+        seed=seed,
+        threads=threads,
+        target_space=record["target_space"],
+        base=record["base"],
+    )
+    fit_quietly(estimator, samples, threads)
+    return estimator
 
 
 def drawn_resamples(n_rows: int, settings: RefittingSettings) -> list[NDArray[np.intp]]:

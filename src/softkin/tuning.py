@@ -1,4 +1,4 @@
-"""Tune one model on one dataset: a resumable Optuna study over grouped cross-validation on `train`."""
+"""A resumable Optuna study: the parameters whose error, part by part of `train`, is lowest on average."""
 
 from __future__ import annotations
 
@@ -18,11 +18,10 @@ import pandas as pd
 from filelock import FileLock
 from optuna.trial import FrozenTrial, Trial, TrialState
 
-from softkin.datasets.table import content_hash, read_subset
-from softkin.files import replacing, sha256_of, write_json
-from softkin.fitting import fit_quietly, kinematic_model
-from softkin.folds import Folds, grouped_folds
-from softkin.interface import TRAIN, ModelSpec, Params, Samples, SoftkinError, informative_coordinates
+from softkin.datasets.table import content_hash
+from softkin.files import replacing, sha256_of
+from softkin.interface import Params, Samples, SoftkinError
+from softkin.rows import sampled_rows
 
 logger = logging.getLogger("softkin")
 
@@ -43,32 +42,18 @@ class TuningSettings:
 
 @dataclass(frozen=True, slots=True)
 class TuningResult:
-    """Best parameters, their cross-validated score (mm), the table of all trials, the study's fingerprint."""
+    """Best parameters, their score (mm), the table of all trials, the study's fingerprint."""
 
     params: Params
-    cv_mae_mm: float
+    score_mm: float
     trials: pd.DataFrame
     fingerprint: str
 
 
 def bounded_rows(samples: Samples, max_rows: int, seed: int) -> Samples:
-    """At most `max_rows` rows drawn without replacement, in their order, moving coordinates only."""
-    rows = np.arange(len(samples))
-    if len(rows) > max_rows:
-        rows = np.sort(np.random.default_rng(seed).choice(rows, max_rows, replace=False))
-    moving = informative_coordinates(samples.positions)
-    return Samples(samples.commands[rows], samples.positions[np.ix_(rows, moving)])
-
-
-def fold_errors(
-    spec: ModelSpec, params: Params, samples: Samples, folds: Folds, seed: int, threads: int
-) -> Iterator[float]:
-    """Mean absolute error (mm) over moving coordinates, fold by fold; everything is fitted inside the fold."""
-    for inside, outside in folds:
-        estimator = kinematic_model(spec, params, skip_constant=True, seed=seed, threads=threads)
-        fit_quietly(estimator, Samples(samples.commands[inside], samples.positions[inside]), threads)
-        predicted = estimator.predict(samples.commands[outside])
-        yield float(np.abs(predicted - samples.positions[outside]).mean())
+    """At most `max_rows` rows drawn without replacement, in their order."""
+    rows = sampled_rows(len(samples), max_rows, seed)
+    return Samples(samples.commands[rows], samples.positions[rows])
 
 
 def fingerprint(name: str, samples: Samples, settings: TuningSettings, code: Sequence[str | Path]) -> str:
@@ -91,14 +76,16 @@ def tune(
     name: str,
     search_space: Callable[[Trial], Params],
     first_trials: Sequence[Mapping[str, Any]],
-    errors_of: Callable[[Params, Samples, Folds], Iterator[float]],
+    errors_of: Callable[[Params], Iterator[float]],
+    n_parts: int,
     settings: TuningSettings,
     study_file: str | Path,
     code: Sequence[str | Path],
 ) -> TuningResult:
     """Bring the study in `study_file` (SQLite) to `settings.n_trials` ended trials and return what it found.
 
-    `errors_of(params, samples, folds)` gives the error (mm) of each fold; the study looks for the lowest mean.
+    `errors_of(params)` gives the error (mm) on each of `n_parts` parts of `samples`; the study looks for the lowest
+    mean. A trial is cut short as soon as it is no match for the others, or an error is not finite.
 
     Resumable to the bit: a killed run leaves ended trials in the file; the next run marks the trial it was in as
     failed and draws it again from a sampler seeded by the trial's place, so that it ends with the same trials as an
@@ -108,8 +95,6 @@ def tune(
     study_file = Path(study_file).resolve()
     study_file.parent.mkdir(parents=True, exist_ok=True)
     mark = fingerprint(name, samples, settings, code)
-    rows = bounded_rows(samples, settings.max_rows, settings.seed)
-    folds = grouped_folds(rows.commands, settings.n_folds, settings.seed)
 
     def objective(trial: Trial) -> float:
         start, cpu = time.perf_counter(), time.process_time()
@@ -117,15 +102,15 @@ def tune(
         trial.set_user_attr("params", params)
         errors: list[float] = []
         try:
-            for step, error in enumerate(errors_of(params, rows, folds)):
+            for step, error in enumerate(errors_of(params)):
                 errors.append(error)
                 if not np.isfinite(error):
                     raise optuna.TrialPruned
                 trial.report(float(np.mean(errors)), step)
-                if step + 1 < len(folds) and trial.should_prune():
+                if step + 1 < n_parts and trial.should_prune():
                     raise optuna.TrialPruned
         finally:
-            trial.set_user_attr("n_folds_scored", len(errors))
+            trial.set_user_attr("n_parts_scored", len(errors))
             trial.set_user_attr("seconds", time.perf_counter() - start)
             trial.set_user_attr("cpu_seconds", time.process_time() - cpu)
         return float(np.mean(errors))
@@ -182,62 +167,17 @@ def _result(trials: list[FrozenTrial], mark: str, model: str) -> TuningResult:
 
 def _row(place: int, trial: FrozenTrial) -> dict[str, Any]:
     shown = {f"param_{key}": value for key, value in sorted(trial.params.items())}
-    attributes = {key: trial.user_attrs.get(key) for key in ("n_folds_scored", "seconds", "cpu_seconds")}
+    attributes = {key: trial.user_attrs.get(key) for key in ("n_parts_scored", "seconds", "cpu_seconds")}
     # Optuna gives a pruned trial its last running mean as value; only a whole cross-validation is a score.
     whole = trial.state == TrialState.COMPLETE
-    return {"trial": place, "state": trial.state.name, "cv_mae_mm": trial.value if whole else None} | attributes | shown
+    return {"trial": place, "state": trial.state.name, "score_mm": trial.value if whole else None} | attributes | shown
 
 
-def tune_model(
-    samples: Samples,
-    *,
-    spec: ModelSpec,
-    settings: TuningSettings,
-    study_file: str | Path,
-    code: Sequence[str | Path],
-    threads: int,
-) -> TuningResult:
-    """The study of one model of the pool."""
-
-    def errors_of(params: Params, rows: Samples, folds: Folds) -> Iterator[float]:
-        return fold_errors(spec, params, rows, folds, settings.seed, threads)
-
-    return tune(
-        samples,
-        name=spec.name,
-        search_space=spec.search_space,
-        first_trials=spec.first_trials,
-        errors_of=errors_of,
-        settings=settings,
-        study_file=study_file,
-        code=code,
-    )
-
-
-def tune_table(
-    table: str | Path,
-    *,
-    spec: ModelSpec,
-    settings: TuningSettings,
-    study_file: str | Path,
-    code: Sequence[str | Path],
-    threads: int,
-    parameters: str | Path,
-    trials: str | Path,
-) -> None:
-    """Tune on the rows of `train` in `table`; write the best `parameters` (JSON) and all `trials` (CSV)."""
-    samples = read_subset(table, TRAIN)
-    result = tune_model(samples, spec=spec, settings=settings, study_file=study_file, code=code, threads=threads)
-    with replacing(trials) as temporary:
-        result.trials.to_csv(temporary, index=False)
-    write_json(
-        parameters,
-        {
-            "params": result.params,
-            "cv_mae_mm": result.cv_mae_mm,
-            "n_trials": len(result.trials),
-            "n_pruned": int((result.trials["state"] == TrialState.PRUNED.name).sum()),
-            "cpu_seconds": float(result.trials["cpu_seconds"].sum()),
-            "fingerprint": result.fingerprint,
-        },
-    )
+def record(result: TuningResult) -> dict[str, Any]:
+    """What a file of best parameters says of its study."""
+    return {
+        "n_trials": len(result.trials),
+        "n_pruned": int((result.trials["state"] == TrialState.PRUNED.name).sum()),
+        "cpu_seconds": float(result.trials["cpu_seconds"].sum()),
+        "fingerprint": result.fingerprint,
+    }

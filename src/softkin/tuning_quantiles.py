@@ -10,7 +10,7 @@ from threadpoolctl import threadpool_limits
 
 from softkin.datasets.table import read_subset
 from softkin.files import replacing, write_json
-from softkin.folds import Folds
+from softkin.folds import Folds, grouped_folds
 from softkin.interface import (
     PAPERS_LEVEL,
     TRAIN,
@@ -23,7 +23,7 @@ from softkin.interface import (
 )
 from softkin.metrics.pinball import pinball_losses
 from softkin.quantiles import QuantileModel
-from softkin.tuning import TuningSettings, tune
+from softkin.tuning import TuningSettings, bounded_rows, record, tune
 
 #: A study sees this many moving coordinates, evenly spread over the robot: each costs a model of its own.
 MAX_COORDINATES = 3
@@ -71,29 +71,20 @@ def tune_quantiles(
     trials: str | Path,
 ) -> None:
     """Tune on the rows of `train` in `table`; write the best `parameters` (JSON) and all `trials` (CSV)."""
-
-    def errors_of(params: Params, rows: Samples, folds: Folds) -> Iterator[float]:
-        return pinball_errors(spec, params, rows, folds, settings.seed, threads)
-
+    samples = some_coordinates(read_subset(table, TRAIN))
+    rows = bounded_rows(samples, settings.max_rows, settings.seed)
+    folds = grouped_folds(rows.commands, settings.n_folds, settings.seed)
     result = tune(
-        some_coordinates(read_subset(table, TRAIN)),
+        samples,
         name=f"quantiles of {spec.name}",
         search_space=spec.search_space,
         first_trials=spec.first_trials,
-        errors_of=errors_of,
+        errors_of=lambda params: pinball_errors(spec, params, rows, folds, settings.seed, threads),
+        n_parts=len(folds),
         settings=settings,
         study_file=study_file,
         code=code,
     )
     with replacing(trials) as temporary:
-        result.trials.rename(columns={"cv_mae_mm": "cv_pinball_mm"}).to_csv(temporary, index=False)
-    write_json(
-        parameters,
-        {
-            "params": result.params,
-            "cv_pinball_mm": result.cv_mae_mm,
-            "n_trials": len(result.trials),
-            "cpu_seconds": float(result.trials["cpu_seconds"].sum()),
-            "fingerprint": result.fingerprint,
-        },
-    )
+        result.trials.to_csv(temporary, index=False)
+    write_json(parameters, {"params": result.params, "cv_pinball_mm": result.score_mm, **record(result)})

@@ -1,13 +1,14 @@
 from __future__ import annotations
 
 import logging
+import os
 import time
 from pathlib import Path
 
 import pytest
 
 from softkin.interface import SoftkinError
-from softkin.job import job, stopwatch
+from softkin.job import ON_A_SCREEN, job, stopwatch
 
 
 def test_bad_input_ends_with_its_message_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -48,3 +49,17 @@ def test_it_leaves_the_log_as_it_found_it(tmp_path: Path) -> None:
     assert logging.getLogger("softkin").handlers == []
     assert logging.getLogger("softkin").propagate
     assert logging.getLogger("py.warnings").handlers == []
+
+
+def test_under_a_screen_everything_goes_to_the_log(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(ON_A_SCREEN, "1")
+    with job(str(tmp_path / "job.log"), "tune"):
+        logging.getLogger("softkin").info("half done")
+        os.system("echo a library wrote this")
+    assert capfd.readouterr() == ("", "")
+    assert "half done" in (tmp_path / "job.log").read_text()
+    assert "a library wrote this" in (tmp_path / "job.log").read_text()
+    os.system("echo afterwards")
+    assert capfd.readouterr().out == "afterwards\n"

@@ -18,7 +18,7 @@ RUN = ("lr", "paper")
 
 
 def refitted(table: Path, folder: Path, settings: RefittingSettings = SETTINGS) -> dict[str, list[RefitEvidence]]:
-    write_json(folder / "fit.json", {"params": {}, "skip_constant": False})
+    write_json(folder / "fit.json", {"params": {}, "skip_constant": False, "target_space": "cartesian", "base": None})
     refit(
         table,
         dataset="arm",

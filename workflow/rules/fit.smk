@@ -3,7 +3,7 @@
 rule fit_paper:
     input:
         table="results/{dataset}/table.parquet",
-        code=package("fitting.py", "estimators/position_scaler.py", "datasets/table.py"),
+        code=package(*FITTING_CODE),
         model_code=model_code,
     output:
         model="results/{dataset}/{model}/paper/model.joblib",
@@ -26,15 +26,16 @@ rule fit_paper:
         "../scripts/fit_paper.py"
 
 
+# The models of all searched presets in one job: starting one costs more than most fits.
 rule fit_tuned:
     input:
         table="results/{dataset}/table.parquet",
-        parameters="results/{dataset}/{model}/tuned/parameters.json",
-        code=package("fitting.py", "estimators/position_scaler.py", "datasets/table.py"),
+        parameters=of_searched("parameters.json"),
+        code=package(*FITTING_CODE),
         model_code=model_code,
     output:
-        model="results/{dataset}/{model}/tuned/model.joblib",
-        record="results/{dataset}/{model}/tuned/fit.json",
+        models=of_searched("model.joblib"),
+        records=of_searched("fit.json"),
     log:
         "results/logs/fit/{dataset}/{model}/tuned.log",
     benchmark:
@@ -44,6 +45,7 @@ rule fit_tuned:
         SOFTWARE
     threads: 1
     params:
+        robot=robot,
         max_rows=max_fit_rows,
         seed=config["seed"],
     script:

@@ -4,23 +4,16 @@
 rule predict:
     input:
         table="results/{dataset}/table.parquet",
-        models=expand(
-            "results/{{dataset}}/{{model}}/{preset}/model.joblib",
-            preset=config["presets"],
-        ),
-        code=package("fitting.py", "estimators/position_scaler.py", "datasets/table.py"),
+        models=of_presets("model.joblib"),
+        code=package(*FITTING_CODE),
         model_code=model_code,
     output:
-        predictions=expand(
-            "results/{{dataset}}/{{model}}/{preset}/predictions.parquet",
-            preset=config["presets"],
-        ),
-        records=expand(
-            "results/{{dataset}}/{{model}}/{preset}/predict.json",
-            preset=config["presets"],
-        ),
+        predictions=of_presets("predictions.parquet"),
+        records=of_presets("predict.json"),
     log:
         "results/logs/predict/{dataset}/{model}.log",
+    benchmark:
+        "results/benchmarks/predict/{dataset}/{model}.tsv"
     priority: 20
     conda:
         SOFTWARE

@@ -1,21 +1,22 @@
 # in:  the table of a dataset (rows of train only are read)
-# out: the best parameters of a model on it, and the table of all trials
-# The study itself lives in results/studies: Snakemake deletes the outputs of a job that was cut off, and a study must
-# outlive that to be resumed.
+# out: the best parameters of a model on it by each searched preset, and the tables of all trials
+# One job for all presets: starting one costs as much as many a study. The studies themselves live in results/studies:
+# Snakemake deletes the outputs of a job that was cut off, and a study must outlive that to be resumed.
 rule tune:
     input:
         table="results/{dataset}/table.parquet",
         code=package(
             "tuning.py",
+            "tuning_models.py",
             "folds.py",
-            "fitting.py",
-            "estimators/position_scaler.py",
-            "datasets/table.py",
+            "shells.py",
+            "rows.py",
+            *FITTING_CODE,
         ),
         model_code=model_code,
     output:
-        parameters="results/{dataset}/{model}/tuned/parameters.json",
-        trials="results/{dataset}/{model}/tuned/trials.csv",
+        parameters=of_searched("parameters.json"),
+        trials=of_searched("trials.csv"),
     log:
         "results/logs/tune/{dataset}/{model}.log",
     benchmark:
@@ -24,10 +25,16 @@ rule tune:
         SOFTWARE
     threads: 1
     params:
-        study="results/studies/{dataset}/{model}.db",
-        n_trials=config["tuning"]["n_trials"],
-        n_folds=config["tuning"]["n_folds"],
-        max_rows=config["tuning"]["max_rows"],
+        presets=SEARCHED_PRESETS,
+        studies=[
+            f"results/studies/{{dataset}}/{{model}}_{preset}.db"
+            for preset in SEARCHED_PRESETS
+        ],
+        robot=robot,
+        tuning=config["tuning"],
+        core_shares=config["shells"]["core_shares"],
+        target_spaces=config["target_spaces"],
+        objective=config["objective"],
         seed=config["seed"],
     script:
         "../scripts/tune.py"

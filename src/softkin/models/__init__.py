@@ -9,15 +9,17 @@ from softkin.interface import ModelSpec
 from softkin.models import (
     gaussian_process,
     gradient_boosting,
+    huber,
     lasso,
     linear,
     mlp,
     random_forest,
+    ridge,
     svr,
     xgboost,
 )
 
-#: In the order of the paper's tables.
+#: In the order of the paper's tables, then ours.
 MODELS: dict[str, ModelSpec] = {
     "lr": linear.SPEC,
     "lasso": lasso.SPEC,
@@ -27,6 +29,8 @@ MODELS: dict[str, ModelSpec] = {
     "svr": svr.SPEC,
     "gp": gaussian_process.SPEC,
     "mlp": mlp.SPEC,
+    "ridge": ridge.SPEC,
+    "huber": huber.SPEC,
 }
 
 

@@ -34,7 +34,7 @@ def search_space(trial: BaseTrial) -> Params:
         "trend": trial.suggest_categorical("trend", ["none", "linear", "quadratic"]),
         "initial_length_scale": trial.suggest_float("initial_length_scale", 0.3, 10.0, log=True),
         "initial_noise": trial.suggest_float("initial_noise", 1e-8, 1e-1, log=True),
-        "learning_rows": 300,
+        "learning_rows": 200,
         "max_iter": 40,
     }
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from softkin.interface import Array, ModelSpec, Params, Samples
 
 if TYPE_CHECKING:
@@ -14,22 +16,36 @@ ALSO_DECIDED_BY = (Path(__file__).parent.parent / "estimators" / "last_layer_lap
 
 
 def build(params: Params, seed: int, threads: int) -> Any:
-    """MLPRegressor(**params) with `width` neurons in each of `layers` hidden layers; `random_state` may be given."""
+    """MLPRegressor(**params) with `width` neurons in each of `layers` hidden layers; `random_state` may be given.
+
+    Of several `networks` (default 1), which differ in their seed alone, the mean.
+    """
+    from sklearn.ensemble import BaggingRegressor
     from sklearn.neural_network import MLPRegressor
 
-    rest = {key: value for key, value in params.items() if key not in ("layers", "width")}
-    return MLPRegressor(**{"random_state": seed, **rest}, hidden_layer_sizes=(params["width"],) * params["layers"])
+    rest = {key: value for key, value in params.items() if key not in ("layers", "width", "networks")}
+    network = MLPRegressor(**{"random_state": seed, **rest}, hidden_layer_sizes=(params["width"],) * params["layers"])
+    if params.get("networks", 1) == 1:
+        return network
+    return BaggingRegressor(network, params["networks"], bootstrap=False, random_state=seed)
 
 
 def spread(regressor: Any, train: Samples, commands: Array) -> Array:
-    """Standard deviation of the last layer's Laplace approximation: the network as a Bayesian one."""
+    """Standard deviation of the last layer's Laplace approximation: the network as a Bayesian one.
+
+    Several networks are a mixture: the mean of their variances, and the variance of their means (Lakshminarayanan et
+    al. 2017, section 2.4).
+    """
     from softkin.estimators.last_layer_laplace import last_layer_laplace
 
-    return last_layer_laplace(regressor, train, commands)
+    networks = getattr(regressor, "estimators_", [regressor])
+    variances = [np.square(last_layer_laplace(network, train, commands)) for network in networks]
+    means = [network.predict(commands).reshape(len(commands), -1) for network in networks]
+    return np.asarray(np.sqrt(np.mean(variances, axis=0) + np.var(means, axis=0)))
 
 
 def search_space(trial: BaseTrial) -> Params:
-    """Small smooth networks by L-BFGS, or larger ones by Adam; both run until they stop improving."""
+    """Small smooth networks by L-BFGS, one or three, or a larger one by Adam; all stop when they no longer improve."""
     solver = trial.suggest_categorical("solver", ["lbfgs", "adam"])
     params = {
         "solver": solver,
@@ -37,11 +53,13 @@ def search_space(trial: BaseTrial) -> Params:
         "width": trial.suggest_int("width", 8, 64, log=True),
         "activation": trial.suggest_categorical("activation", ["tanh", "relu", "logistic"]),
         "alpha": trial.suggest_float("alpha", 1e-6, 1e-1, log=True),
-        "max_iter": 2000,
+        "max_iter": 600,
     }
     if solver == "adam":
         params["learning_rate_init"] = trial.suggest_float("learning_rate_init", 5e-4, 2e-2, log=True)
         params["n_iter_no_change"] = 30
+    else:
+        params["networks"] = trial.suggest_categorical("networks", [1, 3])
     return params
 
 
@@ -54,8 +72,8 @@ SPEC = ModelSpec(
     paper_params={"layers": 1, "width": 100, "random_state": 1, "max_iter": 12},
     search_space=search_space,
     first_trials=(
-        {"solver": "lbfgs", "layers": 2, "width": 16, "activation": "tanh", "alpha": 1e-2},
-        {"solver": "lbfgs", "layers": 2, "width": 32, "activation": "tanh", "alpha": 1e-3},
+        {"solver": "lbfgs", "layers": 2, "width": 16, "activation": "tanh", "alpha": 1e-2, "networks": 3},
+        {"solver": "lbfgs", "layers": 2, "width": 32, "activation": "tanh", "alpha": 1e-3, "networks": 1},
     ),
     spread=spread,
     is_predictive=True,
