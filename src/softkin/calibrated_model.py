@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +11,7 @@ import joblib
 import numpy as np
 import pandas as pd
 
-from softkin.conformal import conformal_limit, error_scale, p_values
+from softkin.conformal import conformal_limit, error_scale, joint_scores, p_values
 from softkin.datasets.table import read_subset
 from softkin.files import replacing
 from softkin.fitting import spread_of
@@ -42,7 +42,10 @@ class CalibratedModel:
     method: IntervalMethod
     estimator: Any
     train: Samples
-    validation: Samples
+    #: What the method sees at any commands: `train` and `validation`, without `new` rows.
+    known: Evidence
+    #: Typical error (n_moving,) of each moving coordinate on `train`, mm.
+    scale: Array
 
     def predict(self, commands: Array) -> Array:
         """Predicted positions (n_rows, n_coordinates)."""
@@ -52,29 +55,17 @@ class CalibratedModel:
         """Intervals (n_levels, n_rows, n_coordinates, 2) of each coordinate by the chosen method; levels ascending."""
         commands = self._checked(commands)
         spreads = {}
-        if self.method.on != "predictions":
-            parts = {"train": self.train.commands, "calibration": self.validation.commands, "new": commands}
-            spreads = {
-                f"{part}_spread": spread_of(self.spec, self.estimator, self.train, rows) for part, rows in parts.items()
-            }
-        evidence = Evidence(
-            self.predict(self.validation.commands),
-            self.validation.positions,
-            self.predict(commands),
-            train_commands=self.train.commands,
-            calibration_commands=self.validation.commands,
-            new_commands=commands,
-            **spreads,
-        )
+        if self.known.calibration_spread is not None:
+            spreads["new_spread"] = spread_of(self.spec, self.estimator, self.train, commands)
+        evidence = replace(self.known, new=self.predict(commands), new_commands=commands, **spreads)
         return self.method.intervals(evidence, confidence_levels)
 
     def box(self, confidence_level: float) -> Array:
         """Half-widths (n_coordinates,) in mm of a box around a predicted pose that holds all moving coordinates at
         once; those that never move have none.
         """
-        scale, scores = self._joint_scores(self.validation)
-        half = np.zeros(self.validation.positions.shape[1])
-        half[self._moving()] = scale * conformal_limit(scores, confidence_level)
+        half = np.zeros(self.known.truth.shape[1])
+        half[self._moving()] = self.scale * conformal_limit(self._scores(self._residuals()), confidence_level)
         return half
 
     def p_values(
@@ -86,21 +77,17 @@ class CalibratedModel:
         The paper's Eq. 4; with `rng` smoothed. Calling a pose anomalous when its p-value is at most alpha raises a
         false alarm in at most a share alpha of cases.
         """
-        known = np.abs(self.validation.positions - self.predict(self.validation.commands))
-        single = p_values(known, np.abs(positions - self.predict(commands)), rng=rng)
-        (_, calibration), (_, new) = (
-            self._joint_scores(rows) for rows in (self.validation, Samples(commands, positions))
-        )
-        return single, p_values(calibration, new, rng=rng)
+        known, new = self._residuals(), positions - self.predict(commands)
+        single = p_values(np.abs(known), np.abs(new), rng=rng)
+        return single, p_values(self._scores(known), self._scores(new), rng=rng)
 
-    def _joint_scores(self, rows: Samples) -> tuple[Array, Array]:
-        """Scale (n_moving,) from `train`, and the largest residual of each pose in units of it."""
-        moving = self._moving()
-        known, residuals = (
-            np.abs(part.positions - self.predict(part.commands))[:, moving] for part in (self.train, rows)
-        )
-        scale = error_scale(known)
-        return scale, np.asarray((residuals / scale).max(axis=1))
+    def _residuals(self) -> Array:
+        """Of the calibration set."""
+        return self.known.truth - self.known.calibration
+
+    def _scores(self, residuals: Array) -> Array:
+        """Nonconformity of each pose (n_rows,)."""
+        return joint_scores(residuals[:, self._moving()], self.scale)
 
     def _moving(self) -> Any:
         return informative_coordinates(self.train.positions)
@@ -113,6 +100,34 @@ class CalibratedModel:
                 f"{self.dataset}: expected finite commands of shape (n_rows, {wanted}), got {rows.shape}"
             )
         return rows
+
+
+def calibrated(
+    dataset: str,
+    spec: ModelSpec,
+    preset: str,
+    method: IntervalMethod,
+    estimator: Any,
+    train: Samples,
+    validation: Samples,
+) -> CalibratedModel:
+    """A fitted `estimator` with all that never changes worked out: what it says of `train` and of `validation`."""
+    spreads = {}
+    if method.on != "predictions":
+        parts = {"train_spread": train.commands, "calibration_spread": validation.commands}
+        spreads = {part: spread_of(spec, estimator, train, commands) for part, commands in parts.items()}
+    predicted = np.asarray(estimator.predict(validation.commands))
+    known = Evidence(
+        predicted,
+        validation.positions,
+        predicted[:0],
+        train_commands=train.commands,
+        calibration_commands=validation.commands,
+        **spreads,
+    )
+    errors = np.abs(train.positions - estimator.predict(train.commands))
+    scale = error_scale(errors[:, informative_coordinates(train.positions)])
+    return CalibratedModel(dataset, spec, preset, method, estimator, train, known, scale)
 
 
 def bundle(
@@ -139,14 +154,14 @@ def bundle(
             f"{dataset}: no configured method puts an interval around a model; mend: add scp_mapie to interval_methods"
         )
     best = around[0]
-    calibrated = CalibratedModel(
-        dataset=dataset,
-        spec=specs[best["model"]],
-        preset=best["preset"],
-        method=methods[best["interval_method"]],
-        estimator=joblib.load(models[best["model"], best["preset"]]),
-        train=read_subset(table, TRAIN),
-        validation=read_subset(table, VALIDATION),
+    robot = calibrated(
+        dataset,
+        specs[best["model"]],
+        best["preset"],
+        methods[best["interval_method"]],
+        joblib.load(models[best["model"], best["preset"]]),
+        read_subset(table, TRAIN),
+        read_subset(table, VALIDATION),
     )
     with replacing(output) as temporary:
-        joblib.dump(calibrated, temporary, compress=3)
+        joblib.dump(robot, temporary, compress=3)

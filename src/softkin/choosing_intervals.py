@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 from sklearn.model_selection import KFold
 
 from softkin.evidence import Evidences, Run
-from softkin.files import read_json, replacing
+from softkin.files import replacing
 from softkin.interface import (
     MARGINAL,
+    OUTER,
     PAPERS_LEVEL,
     PAPERS_RUN,
     Array,
@@ -26,11 +27,13 @@ from softkin.interface import (
     informative_coordinates,
 )
 from softkin.metrics.interval import winkler_scores
-from softkin.tables.selection import selection
+from softkin.tables.selection import deployed, searched_runs, selection
 
 logger = logging.getLogger("softkin")
 
 N_FOLDS = 5
+#: Whose errors a few failed rows cannot move.
+ROBUST_RUNS = (("huber", OUTER),)
 
 
 def nearest_level(confidence_levels: list[float]) -> float:
@@ -38,10 +41,19 @@ def nearest_level(confidence_levels: list[float]) -> float:
     return min(confidence_levels, key=lambda level: abs(level - PAPERS_LEVEL))
 
 
-def model_of_choice(parameters: Mapping[str, str | Path]) -> str:
-    """The tuned model of lowest cross-validated error on `train`; `parameters` is model -> file of its study."""
-    scores = {("", model): float(read_json(file)["cv_mae_mm"]) for model, file in parameters.items()}
-    return str(selection(scores)["model"].iloc[0])
+def run_of_choice(parameters: Mapping[Run, str | Path], objective: str) -> Run:
+    """The run that is deployed; `parameters` is (model, preset) -> file of what its study found."""
+    runs = searched_runs({("", *run): file for run, file in parameters.items()})
+    best = deployed(selection(runs, objective)).iloc[0]
+    return best["model"], best["preset"]
+
+
+def shell_runs(runs: Collection[Run], parameters: Mapping[Run, str | Path], objective: str) -> list[Run]:
+    """The runs, of all `runs`, that get intervals for commands outside `train`: refitting all would take too long. The
+    paper's, the chosen one, the robust ones; `parameters` as for `run_of_choice`, empty where nothing was searched.
+    """
+    chosen = [run_of_choice(parameters, objective)] if parameters else []
+    return [run for run in dict.fromkeys([PAPERS_RUN, *chosen, *ROBUST_RUNS]) if run in runs]
 
 
 def shown_runs(choice: str | Path) -> set[Run]:
@@ -71,7 +83,7 @@ def choose(
     moving = informative_coordinates(evidences.train.positions)
     rows: list[dict[str, Any]] = []
     for name, method in methods.items():
-        if method.guarantee != MARGINAL:
+        if method.guarantee != MARGINAL or method.on == "shells":  # which differ only outside, where no row is scored
             continue
         for run, evidence in evidences.of(method.on):
             if method.on != "quantiles" and run not in runs:

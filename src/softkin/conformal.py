@@ -31,6 +31,31 @@ def conformal_limit(scores: Array, confidence_level: float) -> float:
     return float("inf") if rank is None else float(np.sort(scores)[rank - 1])
 
 
+def conformal_limits(scores: Array, confidence_levels: Sequence[float]) -> Array:
+    """As `conformal_limit`, for each level and column of scores (n_rows, n_columns): (n_levels, n_columns)."""
+    return np.array([[conformal_limit(mine, level) for mine in scores.T] for level in confidence_levels])
+
+
+def weighted_limits(scores: Array, weights: Array, own: Array, confidence_levels: Sequence[float]) -> Array:
+    """Scores that bound new ones at each level where calibration rows count unequally: (n_levels, n_new, n_columns).
+
+    The weighted quantile of scores (n_rows, n_columns) with weights (n_rows,) and of infinity with the new row's `own`
+    weight (n_new,); infinite where the new row outweighs the rest.
+    Source: Tibshirani, Barber, Candes and Ramdas (2019), equation 6; Barber et al. (2023), equation 11.
+    """
+    order = np.argsort(scores, axis=0)
+    ordered = np.vstack([np.take_along_axis(scores, order, axis=0), np.full(scores.shape[1], np.inf)])
+    sums = np.cumsum(weights[order], axis=0)
+    wanted = np.outer(confidence_levels, weights.sum() + own) * (1 - 1e-12)  # a sum that just suffices does
+    places = [np.searchsorted(mine, wanted) for mine in sums.T]
+    return np.stack([mine[place] for mine, place in zip(ordered.T, places, strict=True)], axis=-1)
+
+
+def around(predicted: Array, half_widths: Array) -> Array:
+    """Intervals (n_levels, n_rows, n_coordinates, 2) around predictions (n_rows, n_coordinates)."""
+    return np.stack([predicted - half_widths, predicted + half_widths], axis=-1)
+
+
 def error_scale(train_errors: Array) -> Array:
     """Typical size (n_columns,) of the errors on `train`: their 90 % quantile, which a few failed rows cannot move.
 

@@ -11,7 +11,18 @@ import pandas as pd
 from softkin.bounds import read_bounds
 from softkin.datasets.table import read_subset
 from softkin.fitting import SPREAD, STANDARD_DEVIATION
-from softkin.interface import EXTRAPOLATION, TEST, TRAIN, VALIDATION, Array, Evidence, RefitEvidence
+from softkin.interface import (
+    EXTRAPOLATION,
+    TEST,
+    TRAIN,
+    VALIDATION,
+    Array,
+    Evidence,
+    RefitEvidence,
+    Shell,
+    ShellEvidence,
+)
+from softkin.shells import CommandNorm
 
 Run = tuple[str, str]
 #: The subsets that get intervals; `new` rows of an evidence are theirs, in this order.
@@ -21,7 +32,8 @@ PREFIXES = {"predictions": ("",), "predictive": (STANDARD_DEVIATION,), "spreads"
 
 
 class Evidences:
-    """Stored outputs of one dataset: `predictions` and `quantiles` are (model, preset) -> file, `refits` one file.
+    """Stored outputs of one dataset: `predictions` and `quantiles` are (model, preset) -> file, `refits` and `shells`
+    one file each.
 
     Of `table` the truth of `train` and `validation` is read, and commands.
     """
@@ -34,6 +46,7 @@ class Evidences:
         quantiles: Mapping[Run, str | Path],
         refits: str | Path | None,
         confidence_levels: Sequence[float],
+        shells: str | Path | None = None,
     ) -> None:
         self.train = read_subset(table, TRAIN)
         self.validation = read_subset(table, VALIDATION)
@@ -41,15 +54,14 @@ class Evidences:
         self.levels = list(confidence_levels)
         self.predictions = {run: pd.read_parquet(path) for run, path in predictions.items()}
         self.quantiles = {run: pd.read_parquet(path) for run, path in quantiles.items()}
-        self.refits: dict[str, Array] = {}
-        if refits is not None:
-            with np.load(refits) as archive:
-                self.refits = dict(archive)
+        self.refits, self.shells = _archive(refits), _archive(shells)
 
-    def of(self, on: str) -> Iterator[tuple[Run, Evidence | RefitEvidence]]:
+    def of(self, on: str) -> Iterator[tuple[Run, Evidence | RefitEvidence | ShellEvidence]]:
         """(model, preset) and evidence of every run that a method on `on` can be put around."""
         if on in ("folds", "resamples"):
             yield from self._refitted(on)
+        elif on == "shells":
+            yield from self._on_shells()
         elif on == "quantiles":
             for run, stored in self.quantiles.items():
                 new = [read_bounds(stored, subset, self.levels) for subset in INTERVAL_SUBSETS]
@@ -62,13 +74,8 @@ class Evidences:
                     ),
                 )
         else:
-            wanted = {
-                "predictions": ("",),
-                "predictive": (STANDARD_DEVIATION,),
-                "spreads": (STANDARD_DEVIATION, SPREAD),
-            }
             for run, stored in self.predictions.items():
-                prefix = next((prefix for prefix in wanted[on] if f"{prefix}m1_x" in stored), None)
+                prefix = next((prefix for prefix in PREFIXES[on] if f"{prefix}m1_x" in stored), None)
                 if prefix is not None:
                     yield run, self._predicted(stored, prefix)
 
@@ -95,6 +102,21 @@ class Evidences:
             **spreads,
         )
 
+    def _on_shells(self) -> Iterator[tuple[Run, ShellEvidence]]:
+        found: dict[Run, list[Shell]] = {}
+        for name, predicted in self.shells.items():
+            if name.count("/") != 2:  # what all runs share
+                continue
+            model, preset, place = name.split("/")
+            core, shell = (self.shells[f"{part}_{place}"] for part in ("core", "shell"))
+            commands, truth = self.train.commands, self.train.positions
+            found.setdefault((model, preset), []).append(
+                Shell(commands[core], commands[shell], predicted, truth[shell])
+            )
+        for run, shells in found.items():
+            norm = CommandNorm(self.shells["centre"], self.shells["scale"])
+            yield run, ShellEvidence(self._predicted(self.predictions[run], ""), shells, norm.of)
+
     def _refitted(self, kind: str) -> Iterator[tuple[Run, RefitEvidence]]:
         n = len(self.train)
         for name in self.refits:
@@ -112,6 +134,13 @@ class Evidences:
                 (model, preset),
                 RefitEvidence(inside, everywhere[:, :n], self.train.positions, everywhere[:, n:]),
             )
+
+
+def _archive(path: str | Path | None) -> dict[str, Array]:
+    if path is None:
+        return {}
+    with np.load(path) as archive:
+        return dict(archive)
 
 
 def predicted_rows(stored: pd.DataFrame, subsets: Sequence[str], prefix: str = "") -> Array:

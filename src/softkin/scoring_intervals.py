@@ -25,6 +25,7 @@ from softkin.interface import (
     IntervalMethod,
     RefitEvidence,
     RegionMethod,
+    ShellEvidence,
     SoftkinError,
     coordinate_columns,
     informative_coordinates,
@@ -96,7 +97,10 @@ def score_intervals(
 
 
 def _crps(
-    method: IntervalMethod, evidences: Evidences, evidence: Evidence | RefitEvidence, truth: Mapping[str, Array]
+    method: IntervalMethod,
+    evidences: Evidences,
+    evidence: Evidence | RefitEvidence | ShellEvidence,
+    truth: Mapping[str, Array],
 ) -> Mapping[str, Array]:
     """(n_rows, n_coordinates) per subset; not a number for a method that gives no distribution."""
     if method.crps is None:

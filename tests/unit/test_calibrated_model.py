@@ -11,7 +11,7 @@ import pytest
 from softkin.calibrated_model import CalibratedModel, bundle
 from softkin.datasets.table import to_table, write_table
 from softkin.fitting import fit_quietly, kinematic_model
-from softkin.interface import SUBSETS, Samples, SoftkinError
+from softkin.interface import SUBSETS, SoftkinError
 from softkin.intervals import INTERVAL_METHODS
 from softkin.models import MODELS
 from tests.conftest import bending_arm
@@ -86,6 +86,20 @@ def test_a_learner_of_quantiles_gives_way_to_the_next_best(files: Path) -> None:
         bundled(files, "cqr")
 
 
+@pytest.mark.parametrize("method", ["scp_mapie", "scp_spread"])
+def test_what_never_changes_is_worked_out_once(files: Path, method: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    robot, asked = bundled(files, method), []
+    predict = type(robot.estimator).predict
+    monkeypatch.setattr(
+        type(robot.estimator), "predict", lambda self, rows: [asked.append(len(rows)), predict(self, rows)][1]
+    )
+    new = bending_arm(7, n_markers=2, seed=9)
+    robot.intervals(new.commands, [0.9])
+    robot.box(0.9)
+    robot.p_values(new.commands, new.positions)
+    assert asked == [7, 7]
+
+
 def test_wrong_commands_are_refused(files: Path) -> None:
     robot = bundled(files, "scp_mapie")
     for wrong in (np.zeros((4, 3)), np.full((1, 2), np.nan)):
@@ -93,5 +107,6 @@ def test_wrong_commands_are_refused(files: Path) -> None:
             robot.predict(wrong)
     with pytest.raises(ValueError, match="inhomogeneous"):
         robot.predict([[1.0], [1.0, 2.0]])  # type: ignore[arg-type]
-    few = replace(robot, validation=Samples(robot.validation.commands[:5], robot.validation.positions[:5]))
+    known = robot.known
+    few = replace(robot, known=replace(known, calibration=known.calibration[:5], truth=known.truth[:5]))
     assert np.isinf(few.intervals(np.zeros(2), [0.9])).all()

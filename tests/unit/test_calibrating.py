@@ -1,10 +1,12 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
 import pytest
+from numpy.typing import NDArray
 
 from softkin.bounds import bounds_frame, read_bounds
 from softkin.calibrating import calibrate
@@ -25,6 +27,7 @@ def evidences_of(table: Path, folder: Path) -> Evidences:
         quantiles={RUN: folder / "quantiles.parquet"},
         refits=folder / "refits.npz",
         confidence_levels=LEVELS,
+        shells=folder / "shells.npz",
     )
 
 
@@ -53,6 +56,14 @@ def stored(table: Path, tmp_path: Path) -> Path:
             "mlp/paper/resamples": np.concatenate(truth)[None] + rng.standard_normal((30, 1, 3)),
         },
     )
+    train = read_subset(table, "train")
+    norms = np.linalg.norm(train.commands, axis=1)
+    shells: dict[str, NDArray[Any]] = {"centre": np.zeros(2), "scale": np.ones(2)}
+    for place, radius in enumerate(np.quantile(norms, [0.4, 0.5])):
+        shell = np.flatnonzero(norms > radius)
+        shells |= {f"core_{place}": np.flatnonzero(norms <= radius), f"shell_{place}": shell}
+        shells[f"mlp/paper/{place}"] = train.positions[shell] + rng.uniform(1, 2, (len(shell), 3))
+    np.savez(tmp_path / "shells.npz", **shells)
     return tmp_path
 
 

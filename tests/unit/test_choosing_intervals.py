@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from softkin.choosing_intervals import choose, model_of_choice, parts, shown_runs
+from softkin.choosing_intervals import choose, parts, run_of_choice, shown_runs
 from softkin.datasets.table import read_subset, to_table, write_table
 from softkin.evidence import Evidences
 from softkin.files import write_json
@@ -16,10 +16,13 @@ from tests.conftest import bending_arm
 from tests.unit.intervals.test_engines import quantile_evidence, spread_evidence
 
 
-def test_the_model_is_the_one_of_lowest_cross_validated_error(tmp_path: Path) -> None:
-    for model, score in {"lr": 0.5, "gp": 0.1, "svr": 0.1}.items():
-        write_json(tmp_path / f"{model}.json", {"cv_mae_mm": score})
-    assert model_of_choice({model: tmp_path / f"{model}.json" for model in ("lr", "gp", "svr")}) == "gp"
+def test_the_run_is_the_one_of_lowest_score_by_the_objective(tmp_path: Path) -> None:
+    files = {}
+    for model, scores in {"lr": (0.5, 1.0), "gp": (0.1, 9.0), "svr": (0.1, 9.0)}.items():
+        files[model, "tuned"] = tmp_path / f"{model}.json"
+        write_json(files[model, "tuned"], dict(zip(("cv_mae_mm", "shell_mae_mm"), scores, strict=True)))
+    assert run_of_choice(files, "interpolation") == ("gp", "tuned")
+    assert run_of_choice(files, "extrapolation") == ("lr", "tuned")
 
 
 def test_calibration_rows_are_split_and_never_judged_by_themselves() -> None:

@@ -3,7 +3,7 @@
 rule refit:
     input:
         table="results/{dataset}/table.parquet",
-        records=run_files("fit.json", models=CHEAP_MODELS),
+        records=run_files("fit.json", [PAPER, TUNED], CHEAP_MODELS),
         code=package("refitting.py", "fitting.py", "folds.py", "datasets/table.py"),
     output:
         "results/{dataset}/refits.npz",
@@ -16,11 +16,49 @@ rule refit:
         SOFTWARE
     threads: 1
     params:
-        runs=every_run(CHEAP_MODELS),
+        runs=[run for run in every_run(CHEAP_MODELS) if run[1] in (PAPER, TUNED)],
         refitting=config["refitting"],
         seed=config["seed"],
     script:
         "../scripts/refit.py"
+
+
+# in:  the table of a dataset (positions of train only are read), and with what each model was fitted
+# out: what a few models predict of the outer shells of train when they are refitted on the cores within
+rule refit_shells:
+    input:
+        table="results/{dataset}/table.parquet",
+        records=run_files("fit.json"),
+        parameters=run_files("parameters.json", SEARCHED),
+        code=package(
+            "refitting_shells.py",
+            "refitting.py",
+            "shells.py",
+            "fitting.py",
+            "choosing_intervals.py",
+            "tables/selection.py",
+            "datasets/table.py",
+        ),
+    output:
+        "results/{dataset}/shells.npz",
+    log:
+        "results/logs/refit_shells/{dataset}.log",
+    benchmark:
+        "results/benchmarks/refit_shells/{dataset}.tsv"
+    priority: 10
+    conda:
+        SOFTWARE
+    threads: 1
+    params:
+        runs=every_run(),
+        shells=config["shells"],
+        max_fit_rows=config["max_fit_rows"],
+        source=source,
+        seed=config["seed"],
+        searched=searched_runs(),
+        objective=config["objective"],
+    script:
+        "../scripts/refit_shells.py"
 
 
 # in:  stored outputs of all models of a dataset, and the truth on validation
@@ -30,7 +68,7 @@ rule intervals:
     input:
         unpack(stored_outputs),
         table="results/{dataset}/table.parquet",
-        parameters=run_files("parameters.json", presets=[TUNED]),
+        parameters=run_files("parameters.json", SEARCHED),
         code=package(
             *EVIDENCE_CODE,
             "calibrating.py",
@@ -55,6 +93,8 @@ rule intervals:
     threads: 1
     params:
         **interval_params(),
+        searched=searched_runs(),
+        objective=config["objective"],
     script:
         "../scripts/intervals.py"
 
@@ -97,6 +137,45 @@ rule score_intervals:
         "../scripts/score_intervals.py"
 
 
+# in:  the predictions of all models of a dataset, the intervals of all methods, the truth
+# out: how intervals do outside train, of a few models, those that need labels out there among them, beside the oracle
+rule score_outside:
+    input:
+        table="results/{dataset}/table.parquet",
+        predictions=run_files("predictions.parquet"),
+        parameters=run_files("parameters.json", SEARCHED),
+        intervals=expand(
+            "results/{{dataset}}/intervals/{method}.parquet",
+            method=config["interval_methods"],
+        ),
+        code=package(
+            *EVIDENCE_CODE,
+            "scoring_outside.py",
+            "choosing_intervals.py",
+            "intervals/split_conformal_distance.py",
+            "metrics/interval.py",
+            "tables/selection.py",
+        ),
+        outside_code=sorted((PACKAGE / "outside").glob("*.py")),
+    output:
+        "results/{dataset}/extrapolation_intervals.csv",
+    log:
+        "results/logs/score_outside/{dataset}.log",
+    benchmark:
+        "results/benchmarks/score_outside/{dataset}.tsv"
+    priority: 30
+    conda:
+        SOFTWARE
+    threads: 1
+    params:
+        **interval_params(),
+        source=source,
+        searched=searched_runs(),
+        objective=config["objective"],
+    script:
+        "../scripts/score_outside.py"
+
+
 # in:  which model and method a dataset gets, the fitted models, the rows of train and validation
 # out: one file that predicts, with intervals, regions and p-values, at any command
 rule calibrated_model:
@@ -109,6 +188,8 @@ rule calibrated_model:
         "results/{dataset}/calibrated_model.joblib",
     log:
         "results/logs/calibrated_model/{dataset}.log",
+    benchmark:
+        "results/benchmarks/calibrated_model/{dataset}.tsv"
     priority: 30
     conda:
         SOFTWARE

@@ -1,7 +1,7 @@
 """Rule intervals: put the intervals of every method around all models of a dataset, and choose one."""
 
 from softkin.calibrating import calibrate
-from softkin.choosing_intervals import choose, model_of_choice
+from softkin.choosing_intervals import choose, run_of_choice
 from softkin.evidence import Evidences
 from softkin.intervals import INTERVAL_METHODS
 from softkin.job import job
@@ -9,7 +9,7 @@ from softkin.job import job
 given, params = snakemake.input, snakemake.params
 runs = [tuple(run) for run in params.runs]
 methods = {name: INTERVAL_METHODS[name] for name in params.methods}
-tuned = [run for run in runs if run[1] == "tuned"]
+searched = [tuple(run) for run in params.searched]
 with job(snakemake.log[0], f"intervals {snakemake.wildcards.dataset}"):
     evidences = Evidences(
         given.table,
@@ -17,8 +17,9 @@ with job(snakemake.log[0], f"intervals {snakemake.wildcards.dataset}"):
         quantiles=dict(zip(map(tuple, params.quantile_runs), given.quantiles, strict=True)),
         refits=given.refits[0] if given.refits else None,
         confidence_levels=params.confidence_levels,
+        shells=given.shells[0] if given.shells else None,
     )
     calibrate(evidences, methods=methods, intervals=dict(zip(methods, snakemake.output.intervals, strict=True)))
-    parameters = {model: file for (model, _), file in zip(tuned, given.parameters, strict=True)}
-    candidates = [(model_of_choice(parameters), "tuned")] if tuned else runs
+    parameters = dict(zip(searched, given.parameters, strict=True))
+    candidates = [run_of_choice(parameters, params.objective)] if searched else runs
     choose(evidences, methods=methods, runs=candidates, seed=params.seed, choice=snakemake.output.choice)

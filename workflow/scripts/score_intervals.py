@@ -21,6 +21,7 @@ with job(snakemake.log[0], f"score intervals {dataset}"):
         quantiles=dict(zip(map(tuple, params.quantile_runs), given.quantiles, strict=True)),
         refits=given.refits[0] if given.refits else None,
         confidence_levels=params.confidence_levels,
+        shells=given.shells[0] if given.shells else None,
     )
     score_intervals(
         given.table,

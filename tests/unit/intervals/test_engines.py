@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from crepes import ConformalPredictiveSystem, ConformalRegressor
 
-from softkin.interface import MARGINAL, Array, Evidence, IntervalMethod, RefitEvidence
+from softkin.interface import MARGINAL, Array, Evidence, IntervalMethod, RefitEvidence, Shell, ShellEvidence
 from softkin.intervals import INTERVAL_METHODS
 from softkin.intervals.conformalized_quantile_regression import intervals as cqr
 from softkin.intervals.split_conformal_distance import LEAST_DIFFICULTY, distances
@@ -57,7 +57,28 @@ def refit_evidence(n: int, n_coordinates: int = 6, n_new: int = 40, seed: int = 
     return RefitEvidence(inside, train, truth, rng.standard_normal((len(inside), n_new, n_coordinates)) * 10)
 
 
-def evidence_for(method: IntervalMethod, n: int) -> Evidence | RefitEvidence:
+def shell_evidence(n: int, n_coordinates: int = 6, n_new: int = 40, seed: int = 0) -> ShellEvidence:
+    """Cores of commands within 0.5, 0.7 and 0.85 of the reach; errors grow with the norm. Half of `new` is outside."""
+    rng = np.random.default_rng(seed)
+    train = rng.uniform(-1, 1, (300, 2))
+    norms = np.linalg.norm(train, axis=1)
+    inside = rng.uniform(-0.5, 0.5, (n_new - n_new // 2, 2))
+    outside = inside[: n_new // 2] * 1.5 / np.linalg.norm(inside[: n_new // 2], axis=1)[:, None]
+    base = evidence(n, n_coordinates, n_new, seed)
+    commands = (train, rng.uniform(-1, 1, (n, 2)), np.concatenate([inside, outside]))
+    deployed = Evidence(base.calibration, base.truth, base.new, None, None, None, *commands)
+    shells = []
+    for reach in (0.5, 0.7, 0.85):
+        shell = train[norms > reach]
+        truth = rng.standard_normal((len(shell), n_coordinates))
+        errors = rng.standard_normal(truth.shape) * np.linalg.norm(shell, axis=1)[:, None] ** 2
+        shells.append(Shell(train[norms <= reach], shell, truth + errors, truth))
+    return ShellEvidence(deployed, shells, lambda rows: np.asarray(np.linalg.norm(rows, axis=1)))
+
+
+def evidence_for(method: IntervalMethod, n: int) -> Evidence | RefitEvidence | ShellEvidence:
+    if method.on == "shells":
+        return shell_evidence(n)
     if method.on in ("folds", "resamples"):
         return refit_evidence(n, folds=method.on == "folds")
     return quantile_evidence(n) if method.on == "quantiles" else spread_evidence(n)

@@ -1,0 +1,46 @@
+"""One interval for everywhere: split conformal inside the training region, the shells' outside it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from softkin.conformal import around, conformal_limits, conformal_rank
+from softkin.growth import reach
+from softkin.interface import MARGINAL, Array, IntervalMethod, ShellEvidence
+from softkin.intervals.rolling_shells import half_widths
+
+
+def intervals(evidence: ShellEvidence, confidence_levels: Sequence[float]) -> Array:
+    """Plain split conformal prediction for commands inside, so that `test` is covered as often as promised and not
+    more; the wider of it and rolling shells for those outside. It is never narrower than split conformal prediction,
+    hence its guarantee for commands like those of `train`.
+    """
+    deployed = evidence.deployed
+    limits = conformal_limits(np.abs(deployed.truth - deployed.calibration), confidence_levels)[:, None]
+    beyond = np.maximum(half_widths(evidence, confidence_levels), limits)
+    return around(deployed.new, np.where(outside(evidence)[:, None], beyond, limits))
+
+
+def outside(evidence: ShellEvidence) -> NDArray[np.bool_]:
+    """Which new commands (n_rows,) lie outside the training region: farther out than any of `train`, or, in
+    standardised command space, farther from `train` than any command of it lies from the others.
+    """
+    from sklearn.neighbors import NearestNeighbors
+    from sklearn.preprocessing import StandardScaler
+
+    train, new = evidence.deployed.train_commands, evidence.deployed.new_commands
+    assert train is not None
+    assert new is not None
+    scaler = StandardScaler().fit(train)
+    finder = NearestNeighbors(n_neighbors=1).fit(np.unique(scaler.transform(train), axis=0))
+    widest_gap = finder.kneighbors()[0].max()
+    apart = finder.kneighbors(scaler.transform(new))[0][:, 0] > widest_gap
+    return np.asarray(apart | (evidence.norm(new) > reach(evidence)))
+
+
+METHOD = IntervalMethod(
+    "auto", "Inside and outside", on="shells", guarantee=MARGINAL, intervals=intervals, rank=conformal_rank
+)

@@ -1,0 +1,40 @@
+"""Calibrated on all shells of `train`, with intervals that grow with the distance beyond what was fitted."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from softkin.conformal import around, conformal_limits
+from softkin.growth import growth_laws, new_distances, shell_distances
+from softkin.interface import NO_GUARANTEE, Array, IntervalMethod, ShellEvidence
+
+
+def intervals(evidence: ShellEvidence, confidence_levels: Sequence[float]) -> Array:
+    """Around what the model of all of `train` predicts, as wide as `half_widths` says."""
+    return around(evidence.deployed.new, half_widths(evidence, confidence_levels))
+
+
+def half_widths(evidence: ShellEvidence, confidence_levels: Sequence[float]) -> Array:
+    """(n_levels, n_rows, n_coordinates) in mm, non-decreasing along every ray that leaves the ball around `train`.
+
+    Scores are the errors of each shell in units of what a law of growth makes of its distance (`softkin.growth`).
+    Each shell is calibrated by itself and the worst has its way, which covers every mixture of shells (Duchi, Gupta,
+    Jiang and Sur 2024: predictive inference in multi-environment scenarios); a shell of too few rows for a level has
+    no say. Of the two laws, one of each coordinate and one that all share, the wider is taken.
+    """
+    places, beyond = shell_distances(evidence), new_distances(evidence)
+    widest = np.zeros((len(confidence_levels), *evidence.deployed.new.shape))
+    for law in growth_laws(evidence):
+        limits = []
+        for shell, (reach, distances) in zip(evidence.shells, places, strict=True):
+            scores = np.abs(shell.truth - shell.predicted) / law.of_shell(reach, distances)
+            limits.append(conformal_limits(scores, confidence_levels))
+        finite = np.where(np.isfinite(limits), limits, -np.inf).max(axis=0)
+        worst = np.where(np.isfinite(finite), finite, np.inf)
+        widest = np.maximum(widest, worst[:, None] * law.of_new(beyond))
+    return widest
+
+
+METHOD = IntervalMethod("rolling_shells", "By rolling shells", on="shells", guarantee=NO_GUARANTEE, intervals=intervals)

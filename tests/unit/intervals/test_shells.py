@@ -1,0 +1,80 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from softkin.conformal import conformal_rank
+from softkin.interface import ShellEvidence
+from softkin.intervals import INTERVAL_METHODS
+from softkin.intervals.inside_and_outside import outside
+from softkin.intervals.split_conformal_distance import distances
+from tests.unit.intervals.test_engines import LEVELS, shell_evidence
+
+
+def half_by_hand(evidence: ShellEvidence, place: int, level: float) -> np.ndarray:
+    shell = evidence.shells[place]
+    scores = np.sort(np.abs(shell.truth - shell.predicted), axis=0)
+    rank = conformal_rank(len(scores), level)
+    assert rank is not None
+    return scores[rank - 1]
+
+
+@pytest.mark.parametrize("method", ["shell", "shell_matched"])
+def test_a_shell_sets_one_width_around_the_deployed_model(method: str) -> None:
+    evidence = shell_evidence(88)
+    found = INTERVAL_METHODS[method].intervals(evidence, LEVELS)
+    np.testing.assert_allclose(found.mean(axis=-1), np.broadcast_to(evidence.deployed.new, found.shape[:-1]))
+    shares = [len(s.core_commands) / (len(s.core_commands) + len(s.commands)) for s in evidence.shells]
+    reach = evidence.norm(evidence.deployed.train_commands).max()  # type: ignore[arg-type]
+    beyond = evidence.norm(evidence.deployed.new_commands).max() / reach  # type: ignore[arg-type]
+    ratios = [reach / evidence.norm(s.core_commands).max() for s in evidence.shells]
+    place = int(np.argmin(np.abs(np.subtract(shares, 0.7)) if method == "shell" else np.abs(np.log(ratios / beyond))))
+    for level, bounds in zip(LEVELS, found, strict=True):
+        expected = np.broadcast_to(2 * half_by_hand(evidence, place, level), bounds.shape[:-1])
+        np.testing.assert_allclose(bounds[..., 1] - bounds[..., 0], expected)
+
+
+def test_one_interval_is_split_conformal_inside_and_never_narrower_outside() -> None:
+    evidence = shell_evidence(88)
+    one, split, rolling = (
+        INTERVAL_METHODS[name].intervals(given, LEVELS)
+        for name, given in (("auto", evidence), ("scp_mapie", evidence.deployed), ("rolling_shells", evidence))
+    )
+    out = outside(evidence)
+    assert out.tolist() == [False] * 20 + [True] * 20
+    np.testing.assert_allclose(one[:, ~out], split[:, ~out], atol=1e-9)
+    width, least, by_shells = (np.diff(bounds, axis=-1)[:, out] for bounds in (one, split, rolling))
+    np.testing.assert_allclose(width, np.maximum(least, by_shells), atol=1e-9)
+
+
+def test_a_command_in_a_hole_of_train_is_outside() -> None:
+    evidence = shell_evidence(88)
+    assert evidence.deployed.train_commands is not None
+    assert evidence.deployed.new_commands is not None
+    far = evidence.norm(evidence.deployed.train_commands) > 0.5
+    evidence.deployed.new_commands[0] = 0.0
+    assert not outside(evidence)[0]
+    object.__setattr__(evidence.deployed, "train_commands", evidence.deployed.train_commands[far])
+    assert outside(evidence)[0]
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    seed=st.integers(0, 50),
+    n_commands=st.integers(1, 4),
+    direction=st.lists(st.floats(-1, 1), min_size=4, max_size=4),
+)
+def test_the_difficulty_never_shrinks_along_a_ray_that_leaves_the_box(
+    seed: int, n_commands: int, direction: list[float]
+) -> None:
+    rng = np.random.default_rng(seed)
+    train = rng.uniform(-1, 1, (60, n_commands)) ** 3 * [1.0, 10.0, 100.0, 1000.0][:n_commands]
+    heading = np.array(direction[:n_commands]) + 1e-3
+    start = rng.uniform(train.min(axis=0), train.max(axis=0))
+    ray = start + np.linspace(0, 8, 200)[:, None] * heading * train.std(axis=0)
+    (found,) = distances(train, [ray])
+    inside = ((ray >= train.min(axis=0)) & (ray <= train.max(axis=0))).all(axis=1)
+    last = int(np.flatnonzero(inside)[-1])
+    assert (np.diff(found[last:]) >= -1e-9).all()
