@@ -18,6 +18,7 @@ configfile: Path(workflow.basedir) / "config" / "datasets.yaml"
 
 
 include: "workflow/rules/common.smk"
+include: "workflow/rules/deciding_code.smk"
 include: "workflow/rules/retrieve.smk"
 include: "workflow/rules/prepare.smk"
 include: "workflow/rules/audit.smk"
@@ -32,6 +33,7 @@ include: "workflow/rules/tables.smk"
 include: "workflow/rules/timed_jobs.smk"
 include: "workflow/rules/report.smk"
 include: "workflow/rules/track.smk"
+include: "workflow/rules/watch.smk"
 
 
 rule all:
@@ -42,13 +44,16 @@ rule all:
 
 onstart:
     warn_of_stand_ins()
+    watch()
 
 
 onsuccess:
+    stop_watching()
     if Path(HEADLINE).exists():  # a run for a single file has none
         print(Path(HEADLINE).read_text(encoding="utf-8"))
     warn_of_stand_ins()
 
 
 onerror:
+    stop_watching()
     warn_of_stand_ins()

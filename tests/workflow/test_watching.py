@@ -1,0 +1,78 @@
+"""What a person sees: one screen on a terminal, plain lines in a pipe. Own runs: a finished one shows nothing."""
+
+from __future__ import annotations
+
+import os
+import pty
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from tests.workflow.conftest import House, copy_house
+
+pytestmark = pytest.mark.timeout(300)
+TARGET = "results/finger/lr/tuned/fit.json"
+
+
+@pytest.fixture
+def new_house(tmp_path: Path, mirror: Path) -> House:
+    copy_house(tmp_path / "house")
+    (tmp_path / "work").mkdir()
+    return House(tmp_path / "house", tmp_path / "work", mirror)
+
+
+def on_a_terminal(house: House, *options: str) -> str:
+    """All that a run writes to a pseudo-terminal of 100 columns."""
+    master, slave = pty.openpty()
+    environment = house.environment() | {"TERM": "xterm"}
+    run = subprocess.Popen(
+        house.command(*options), env=environment, cwd=house.root, stdin=slave, stdout=slave, stderr=slave
+    )
+    os.close(slave)
+    written = b""
+    try:
+        while part := os.read(master, 65536):
+            written += part
+    except OSError:  # how Linux says that nobody holds the other end any more
+        pass
+    os.close(master)
+    assert run.wait() == 0, written.decode()[-3000:]
+    return written.decode().replace("\r\n", "\n")
+
+
+def test_a_terminal_shows_one_quiet_screen(new_house: House) -> None:
+    shown = on_a_terminal(new_house, TARGET)
+    assert "softkin test · 0 of 4 jobs · 0 s used · no estimate yet" in shown
+    assert "\033[J" in shown
+    running = [line for line in shown.splitlines() if line.startswith("  tune  finger  lr")]
+    assert any("trial" in line and "of 4" in line for line in running)
+    assert "localrule" not in shown
+    assert "Finished jobid" not in shown
+    assert "tune finger lr: 4 of 4 trials" not in shown  # a job tells its log alone
+    assert "4 of 4 trials" in (new_house.work / "results" / "logs" / "tune" / "finger" / "lr.log").read_text()
+    assert shown.split("\033[J")[-1].startswith("softkin test: 4 of 4 jobs in ")
+
+
+def test_a_pipe_gets_plain_lines_and_the_next_run_an_estimate(new_house: House) -> None:
+    done = new_house.snakemake(TARGET)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "\033" not in done.stdout + done.stderr
+    lines = done.stderr.splitlines()
+    assert [line.split("] ")[1].split(":")[0] for line in lines if line.startswith("[") and " jobs · " in line] == [
+        *("retrieve finger", "prepare finger", "tune finger lr", "fit tuned finger lr")
+    ]
+    assert "tune finger lr: 4 of 4 trials, best" in done.stderr
+    assert "localrule" not in done.stderr
+    benchmark = new_house.work / "results" / "benchmarks" / "fit_tuned" / "finger" / "lr.tsv"
+    benchmark.write_text("s\th:m:s\n600.0\t0:10:00\n")
+    again = new_house.snakemake(TARGET, "--forcerun", "tune")
+    told = [line for line in again.stderr.splitlines() if "] tune finger lr: " in line]
+    assert len(told) == 1
+    assert told[0].startswith("[1 of 2 jobs")
+    assert "about 10 min left" in told[0]
+
+
+def test_who_asks_for_snakemakes_own_words_gets_them(new_house: House) -> None:
+    done = new_house.snakemake("results/finger/table.parquet", "--printshellcmds")
+    assert "localrule prepare:" in done.stderr

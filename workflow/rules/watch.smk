@@ -1,0 +1,42 @@
+# What a person sees while it runs: see src/softkin/watching. No rule of its own.
+import time
+
+from softkin.watching.progress import Job, Progress, in_order, measured_seconds
+from softkin.watching.view import SNAKEMAKES_OWN, View
+
+
+def jobs_to_do():
+    """Every job of this run, with what it took in the run before: read now, since a job that starts deletes that."""
+    numbers = {workflow.dag.jobid(job): job for job in workflow.dag.needrun_jobs()}
+    jobs = {
+        number: Job(
+            job.rule.name,
+            dict(job.wildcards_dict),
+            Path(job.log[0]) if job.log else None,
+            measured_seconds(job.benchmark),
+        )
+        for number, job in numbers.items()
+        if not job.is_norun
+    }
+    return in_order(jobs, [rule.name for rule in workflow.rules])
+
+
+def watch():
+    """Show the run our way; Snakemake's own way where --quiet, --verbose or a logger plugin was asked for."""
+    settings, logger = workflow.output_settings, workflow.logger_manager.logger
+    own = [handler for handler in logger.handlers if handler.name == SNAKEMAKES_OWN]
+    asked_otherwise = settings.quiet or settings.verbose or settings.printshellcmds
+    if not own or asked_otherwise:
+        return
+    progress = Progress(jobs_to_do(), workflow.cores or 1, time.monotonic())
+    VIEWS.append(View(progress, own[0], f"softkin {config['campaign']}"))
+    VIEWS[0].start(logger)
+
+
+def stop_watching():
+    """Before anything is printed at the end."""
+    while VIEWS:
+        VIEWS.pop().finish(workflow.logger_manager.logger)
+
+
+VIEWS = []
