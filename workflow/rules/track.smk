@@ -1,5 +1,5 @@
 # in:  the result files of a dataset
-# out: its runs in the MLflow store, and their ids
+# out: its runs in the MLflow store and its champion in the registry, and their ids
 rule create_store:
     output:
         "results/mlflow_store.json",
@@ -9,7 +9,7 @@ rule create_store:
     conda:
         SOFTWARE
     params:
-        tracking_uri=config["tracking_uri"],
+        tracking_uri=tracking_uri(),
     script:
         "../scripts/create_store.py"
 
@@ -20,25 +20,38 @@ rule track:
         description="results/{dataset}/dataset.json",
         data_card="results/{dataset}/data_card.json",
         point="results/{dataset}/point_metrics.csv",
+        models=run_files("model.joblib"),
         predictions=run_files("predictions.parquet"),
         fit=run_files("fit.json"),
-        parameters=run_files("parameters.json", [TUNED]),
-        trials=run_files("trials.csv", [TUNED]),
+        parameters=run_files("parameters.json", SEARCHED),
+        trials=run_files("trials.csv", SEARCHED),
         intervals="results/{dataset}/interval_metrics.csv",
         figures="results/{dataset}/figures",
-        code=package("tracking/store.py", "tracking/models.py", "tracking/intervals.py"),
+        calibrated_model="results/{dataset}/calibrated_model.joblib",
+        code=package(
+            "tracking/store.py",
+            "tracking/figure_index.py",
+            "tracking/models.py",
+            "tracking/intervals.py",
+            "tracking/champion.py",
+            "tracking/model_card.py",
+            "tracking/served_model.py",
+            "tracking/saved_view.py",
+        ),
     output:
         "results/{dataset}/mlflow_runs.json",
     log:
         "results/logs/track/{dataset}.log",
+    benchmark:
+        "results/benchmarks/track/{dataset}.tsv"
     priority: 40
     conda:
         SOFTWARE
     params:
         runs=every_run(),
-        tuned=[run for run in every_run() if run[1] == TUNED],
+        tuned=searched_runs(),
         campaign=config["campaign"],
         seed=config["seed"],
-        tracking_uri=config["tracking_uri"],
+        tracking_uri=tracking_uri(),
     script:
         "../scripts/track.py"

@@ -2,12 +2,14 @@
 
 from softkin.files import write_json
 from softkin.job import job
-from softkin.tracking import Campaign, log_dataset, log_intervals
+from softkin.tracking import Campaign, log_champion, log_dataset, log_intervals
 
 given = snakemake.input
 runs = {
-    tuple(run): {"predictions": predictions, "fit": fit}
-    for run, predictions, fit in zip(snakemake.params.runs, given.predictions, given.fit, strict=True)
+    tuple(run): {"model": model, "predictions": predictions, "fit": fit}
+    for run, model, predictions, fit in zip(
+        snakemake.params.runs, given.models, given.predictions, given.fit, strict=True
+    )
 }
 for run, parameters, trials in zip(snakemake.params.tuned, given.parameters, given.trials, strict=True):
     runs[tuple(run)] |= {"parameters": parameters, "trials": trials}
@@ -19,11 +21,15 @@ with job(snakemake.log[0], f"track {snakemake.wildcards.dataset}"):
         tracking_uri=snakemake.params.tracking_uri,
         artifacts="mlartifacts",
     )
-    logged = log_dataset(
-        campaign, description=given.description, data_card=given.data_card, point=given.point, runs=runs
+    about = {"description": given.description, "data_card": given.data_card}
+    logged = log_dataset(campaign, **about, point=given.point, figures=given.figures, runs=runs)
+    n_intervals = log_intervals(campaign, **about, metrics=given.intervals, figures=given.figures, parents=logged)
+    version = log_champion(
+        campaign,
+        **about,
+        point=given.point,
+        intervals=given.intervals,
+        calibrated_model=given.calibrated_model,
+        parent=logged["campaign"],
     )
-    dataset = snakemake.wildcards.dataset
-    n_intervals = log_intervals(
-        campaign, dataset=dataset, metrics=given.intervals, figures=given.figures, parents=logged
-    )
-    write_json(snakemake.output[0], {"runs": logged, "interval_runs": n_intervals})
+    write_json(snakemake.output[0], {"runs": logged, "interval_runs": n_intervals, "champion": version})

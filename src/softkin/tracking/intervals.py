@@ -8,29 +8,50 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from softkin.files import sha256_of
+from softkin.files import read_json
 from softkin.interface import TEST
-from softkin.tracking.store import NOTE, PARENT, Campaign, Record, client_of, delete, experiment_of, find, put
+from softkin.tracking.figure_index import content_of, shown_in
+from softkin.tracking.store import (
+    NOTE,
+    PARENT,
+    Campaign,
+    Record,
+    client_of,
+    common_tags,
+    delete,
+    experiment_of,
+    find,
+    put,
+)
 
 #: Rows of interval_metrics.csv that become metrics -> what their names start with.
 SHOWN = {"mean_informative": "", "joint": "joint_"}
 REGIONS = "joint_regions"
+#: Milliseconds.
+MODELS_FIRST = 1000
 METRICS = ("coverage", "mean_width_mm", "winkler_mm", "crps_mm", "size_mm", "infinite_share", "crossing_share")
 
 
 def log_intervals(
-    campaign: Campaign, *, dataset: str, metrics: str | Path, figures: str | Path, parents: Mapping[str, str]
+    campaign: Campaign,
+    *,
+    description: str | Path,
+    data_card: str | Path,
+    metrics: str | Path,
+    figures: str | Path,
+    parents: Mapping[str, str],
 ) -> int:
     """Log the dataset's interval metrics; return how many runs there are.
 
-    `figures` is the folder of the dataset's figures, whose index.csv says which run each of them shows.
-
-    `parents` is 'model/preset' -> run id of the model, as `log_dataset` returns it. QR and CQR hang on the model of
-    their learner's name.
+    `figures` is the folder of the dataset's figures, whose index.csv says which run each of them shows; `parents` is
+    'model/preset' -> run id of the model, as `log_dataset` returns it. QR and CQR hang on the model of their learner's
+    name.
     """
     client = client_of(campaign.tracking_uri)
-    experiment = experiment_of(client, dataset, campaign.artifacts)
-    shown = _shown(Path(figures))
+    about = read_json(description) | {"findings": read_json(data_card)["findings"]}
+    tags = common_tags(campaign, about)
+    experiment = experiment_of(client, about["dataset"], campaign.artifacts)
+    shown = shown_in(figures)
     kept = set()
     table = pd.read_csv(metrics)
     # All shapes of joint region around a model share a run: one row each is all they have.
@@ -39,43 +60,35 @@ def log_intervals(
     for (model, preset, method), rows in table.groupby(["model", "preset", "run"]):
         parent = parents.get(f"{model}/{preset}", parents["campaign"])
         key = (str(model), str(preset), str(method))
-        kept.add(put(client, experiment, _record(campaign, dataset, key, rows, parent, shown.get(key, []))))
+        kept.add(put(client, experiment, _record(campaign, tags, key, rows, parent, shown.get(key, []))))
     there = find(client, experiment, campaign=campaign.name, kind="intervals")
     delete(client, [run for run in there if run.info.run_id not in kept])
     return len(kept)
 
 
-def _shown(folder: Path) -> dict[tuple[str, str, str], list[Path]]:
-    """(model, preset, method) -> the figures it is shown in, without their ending."""
-    found: dict[tuple[str, str, str], list[Path]] = {}
-    for row in pd.read_csv(folder / "index.csv").to_dict("records"):
-        found.setdefault((row["model"], row["preset"], row["interval_method"]), []).append(folder / row["figure"])
-    return found
-
-
 def _record(
     campaign: Campaign,
-    dataset: str,
+    tags: Mapping[str, str],
     key: tuple[str, str, str],
     rows: pd.DataFrame,
     parent: str,
     figures: Sequence[Path],
 ) -> Record:
     model, preset, method = key
+    dataset = tags["dataset"]
     table = rows.drop(columns="run").to_csv(index=False)
     return Record(
         key=f"{campaign.name}/{dataset}/{model}/{preset}/{method}",
         name=f"{dataset} · {model} · {preset} · {method}",
         content={
-            "parent": parent,
             "table": table,
-            "figures": [sha256_of([path.with_suffix(".csv")]) for path in figures],
+            "figures": content_of(figures),
+            "leak": tags["leak"],
         },
         tags={
             PARENT: parent,
+            **tags,
             "kind": "intervals",
-            "campaign": campaign.name,
-            "dataset": dataset,
             "model": model,
             "preset": preset,
             "interval_method": method,
@@ -83,7 +96,9 @@ def _record(
         },
         metrics=_metrics(rows),
         texts={"interval_metrics.csv": table},
-        figures=[str(path.with_suffix(".png")) for path in figures],
+        figures=[str(path) for path in figures],
+        # Below the models: the UI loads a hundred runs, newest first.
+        started=campaign.started - MODELS_FIRST,
     )
 
 

@@ -18,11 +18,13 @@ from pathlib import Path
 from typing import Any
 
 os.environ.setdefault("MLFLOW_DISABLE_TELEMETRY", "true")
+os.environ.setdefault("MLFLOW_ENABLE_ARTIFACTS_PROGRESS_BAR", "false")
 
 from filelock import FileLock
 from mlflow import MlflowClient
 from mlflow.entities import DatasetInput, Metric, Param, Run
 
+from softkin.findings import LEAK
 from softkin.interface import SoftkinError
 
 logger = logging.getLogger("softkin")
@@ -41,18 +43,22 @@ class Campaign:
     seed: int
     tracking_uri: str
     artifacts: str
+    #: When the runs are said to begin, milliseconds; the UI shows the newest first, so they are told apart by it.
+    started: int = field(default_factory=lambda: int(time.time() * 1000))
 
 
 @dataclass(frozen=True, slots=True)
 class Record:
     """What one run shows. `content` is what a change of makes it a new run; `texts` and `files` become artifacts,
-    `figures` artifacts in a folder of that name.
+    `figures` artifacts in a folder of that name. `started` (milliseconds) and `seconds` place it in the UI's table.
     """
 
     key: str
     name: str
     content: Any
     tags: Mapping[str, str]
+    started: int
+    seconds: float = 0.0
     metrics: Mapping[str, float] = field(default_factory=dict)
     curves: Sequence[tuple[str, int, float]] = ()
     params: Mapping[str, Any] = field(default_factory=dict)
@@ -60,6 +66,18 @@ class Record:
     files: Sequence[str] = ()
     figures: Sequence[str] = ()
     texts: Mapping[str, str] = field(default_factory=dict)
+
+
+def common_tags(campaign: Campaign, about: Mapping[str, Any]) -> dict[str, str]:
+    """The tags of every run; `about` is the dataset's description with the `findings` of its data card."""
+    return {
+        "campaign": campaign.name,
+        "dataset": about["dataset"],
+        "data_sha256": about["sha256"],
+        "origin": about["origin"],
+        "seed": str(campaign.seed),
+        "leak": str(any(finding["severity"] == LEAK for finding in about["findings"])).lower(),
+    }
 
 
 def create_store(tracking_uri: str) -> None:
@@ -94,7 +112,9 @@ def experiment_of(client: MlflowClient, dataset: str, artifacts: str) -> str:
         client.restore_experiment(found.experiment_id)
     if found is not None:
         return str(found.experiment_id)
-    location = (Path(artifacts) / dataset).resolve().as_uri()
+    # A server keeps artifacts where it was told to.
+    is_ours = client.tracking_uri.startswith(SQLITE)
+    location = (Path(artifacts) / dataset).resolve().as_uri() if is_ours else None
     return str(client.create_experiment(dataset, artifact_location=location))
 
 
@@ -105,8 +125,13 @@ def put(client: MlflowClient, experiment: str, record: Record) -> str:
     current = [run for run in old if run.data.tags.get(CONTENT) == content and run.info.status == "FINISHED"]
     if current:
         delete(client, [run for run in old if run is not current[0]])
-        return str(current[0].info.run_id)
-    run_id = str(client.create_run(experiment, run_name=record.name, tags={KEY: record.key, **record.tags}).info.run_id)
+        run_id = str(current[0].info.run_id)
+        # Whose child it is says nothing of what it shows.
+        if PARENT in record.tags and current[0].data.tags.get(PARENT) != record.tags[PARENT]:
+            client.set_tag(run_id, PARENT, record.tags[PARENT])
+        return run_id
+    tags = {KEY: record.key, **record.tags}
+    run_id = str(client.create_run(experiment, record.started, tags, record.name).info.run_id)
     now = int(time.time() * 1000)
     metrics = [Metric(name, value, now, 0) for name, value in record.metrics.items()]
     metrics += [Metric(name, value, now, step) for name, step, value in record.curves]
@@ -124,7 +149,7 @@ def put(client: MlflowClient, experiment: str, record: Record) -> str:
         client.log_text(run_id, text, name)
     # The content tag comes last: a run cut off before it is not taken for whole.
     client.set_tag(run_id, CONTENT, content)
-    client.set_terminated(run_id)
+    client.set_terminated(run_id, end_time=record.started + int(1000 * record.seconds))
     delete(client, old)
     return run_id
 

@@ -1,0 +1,166 @@
+"""The calibrated model of a dataset in MLflow's registry, under the alias `champion`."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import logging
+import tempfile
+from importlib.metadata import version as installed
+from pathlib import Path
+from typing import Any
+
+import joblib
+import mlflow.pyfunc
+import pandas as pd
+from mlflow import MlflowClient
+from mlflow.entities import LoggedModelOutput
+from mlflow.exceptions import MlflowException
+from mlflow.models import Model, ModelSignature
+from mlflow.types import ColSpec, ParamSchema, ParamSpec, Schema
+from mlflow.utils.mlflow_tags import MLFLOW_MODEL_VERSIONS
+
+import softkin
+from softkin.calibrated_model import CalibratedModel
+from softkin.choosing_intervals import nearest_level
+from softkin.files import read_json, sha256_of
+from softkin.interface import command_columns, coordinate_columns
+from softkin.tracking.model_card import model_card
+from softkin.tracking.store import CONTENT, NOTE, PARENT, Campaign, Record, client_of, common_tags, experiment_of, put
+
+logger = logging.getLogger("softkin")
+
+ALIAS = "champion"
+PARTS = ("y_pred", "lower", "upper")
+#: What a calibrated model needs where it is loaded; softkin itself comes with it.
+REQUIREMENTS = ("mlflow", "numpy", "pandas", "scipy", "scikit-learn", "xgboost", "mapie", "crepes", "joblib", "pyarrow")
+#: Rows of `train` that show what a command looks like.
+EXAMPLES = 3
+
+
+def log_champion(
+    campaign: Campaign,
+    *,
+    description: str | Path,
+    data_card: str | Path,
+    point: str | Path,
+    intervals: str | Path,
+    calibrated_model: str | Path,
+    parent: str,
+) -> str:
+    """Log the run of the calibrated model, a child of the campaign's run `parent`, and give its version the alias.
+
+    Returns the version. The one that is there is kept while model and card are the same; versions of other content
+    stay in the registry, without the alias.
+    """
+    client = client_of(campaign.tracking_uri)
+    about = read_json(description) | {"findings": read_json(data_card)["findings"]}
+    model: CalibratedModel = joblib.load(calibrated_model)
+    name = f"softkin-{about['dataset']}"
+    key = {"model": model.spec.name, "preset": model.preset}
+    scores = _rows(pd.read_csv(point), **key)
+    table = _rows(pd.read_csv(intervals), **key, interval_method=model.method.name, coordinate="mean_informative")
+    level = nearest_level(sorted(table["confidence_level"].unique()))
+    shown = table[table["confidence_level"] == level]
+    card = model_card(model, registered=name, about=about, scores=scores, intervals=shown, level=level)
+    record = Record(
+        key=f"{campaign.name}/{about['dataset']}/{ALIAS}",
+        name=f"{about['dataset']} · {ALIAS}",
+        content={"model": sha256_of([calibrated_model]), "card": card},
+        tags={
+            PARENT: parent,
+            **common_tags(campaign, about),
+            "kind": ALIAS,
+            **key,
+            "interval_method": model.method.name,
+            NOTE: card,
+        },
+        metrics=_metrics(scores, shown, level),
+        params={**key, "interval_method": model.method.name, "confidence_level": level},
+        texts={"model_card.md": card},
+        started=campaign.started,
+    )
+    run_id = put(client, experiment_of(client, about["dataset"], campaign.artifacts), record)
+    return _version(client, name, run_id, record, Path(calibrated_model), model, level)
+
+
+def _rows(table: pd.DataFrame, **wanted: str) -> pd.DataFrame:
+    """The rows where columns have these values, by subset."""
+    for column, value in wanted.items():
+        table = table[table[column] == value]
+    return table.set_index("subset")
+
+
+def _metrics(scores: pd.DataFrame, intervals: pd.DataFrame, level: float) -> dict[str, float]:
+    """The headline's numbers, named as in the other runs."""
+    values = {f"{subset}/euclidean_mean_mm": float(value) for subset, value in scores["euclidean_mean_mm"].items()}
+    for name in ("coverage", "mean_width_mm", "winkler_mm"):
+        values |= {f"{subset}/{name}_{100 * level:g}": float(value) for subset, value in intervals[name].items()}
+    return values
+
+
+def _version(
+    client: MlflowClient, name: str, run_id: str, record: Record, file: Path, model: CalibratedModel, level: float
+) -> str:
+    """The version with this content, made where there is none; it has the alias."""
+    content = hashlib.sha256(json.dumps([record.key, record.content], sort_keys=True).encode()).hexdigest()
+    same = [v for v in client.search_model_versions(f"name = '{name}'") if v.tags.get(CONTENT) == content]
+    if same:
+        version = str(same[0].version)
+    else:
+        tags = {key: value for key, value in record.tags.items() if key not in (NOTE, PARENT)}
+        logged = _log_model(client, run_id, name, file, model, level, tags)
+        try:
+            client.create_registered_model(name, description=f"The calibrated forward kinematics of {model.dataset}.")
+        except MlflowException as error:
+            if error.error_code != "RESOURCE_ALREADY_EXISTS":
+                raise
+        made = client.create_model_version(
+            name, f"models:/{logged}", run_id, tags | {CONTENT: content}, description=record.texts["model_card.md"],
+            model_id=logged,
+        )  # fmt: skip
+        version = str(made.version)
+        # The UI links the logged model to its version by this tag.
+        client.set_logged_model_tags(logged, {MLFLOW_MODEL_VERSIONS: json.dumps([{"name": name, "version": version}])})
+        logger.info("registered %s, version %s", name, version)
+    if str(client.get_registered_model(name).aliases.get(ALIAS)) != version:
+        client.set_registered_model_alias(name, ALIAS, version)
+    return version
+
+
+def _log_model(
+    client: MlflowClient, run_id: str, name: str, file: Path, model: CalibratedModel, level: float, tags: dict[str, Any]
+) -> str:
+    """Id of the logged model: softkin's code, the calibrated model and what they need, as an output of the run."""
+    experiment = client.get_run(run_id).info.experiment_id
+    logged = client.create_logged_model(experiment, name=name, source_run_id=run_id, tags=tags)
+    commands = command_columns(model.train.commands.shape[1])
+    with tempfile.TemporaryDirectory() as folder:
+        mlflow.pyfunc.save_model(
+            f"{folder}/model",
+            python_model=str(Path(__file__).with_name("served_model.py")),
+            artifacts={"calibrated_model": str(file.resolve())},
+            code_paths=[str(Path(softkin.__file__).parent)],
+            signature=_signature(model, level),
+            input_example=pd.DataFrame(model.train.commands[:EXAMPLES], columns=commands),
+            pip_requirements=[f"{package}=={installed(package)}" for package in REQUIREMENTS],
+            mlflow_model=Model(
+                artifact_path=logged.artifact_location,
+                model_uuid=logged.model_id,
+                model_id=logged.model_id,
+                run_id=run_id,
+            ),
+        )
+        client.log_model_artifacts(logged.model_id, f"{folder}/model")
+    client.finalize_logged_model(logged.model_id, "READY")
+    client.log_outputs(run_id, [LoggedModelOutput(logged.model_id, step=0)])
+    return str(logged.model_id)
+
+
+def _signature(model: CalibratedModel, level: float) -> ModelSignature:
+    coordinates = coordinate_columns(model.train.positions.shape[1] // 3)
+    return ModelSignature(
+        inputs=Schema([ColSpec("double", name) for name in command_columns(model.train.commands.shape[1])]),
+        outputs=Schema([ColSpec("double", f"{part}_{name}") for part in PARTS for name in coordinates]),
+        params=ParamSchema([ParamSpec("confidence_level", "double", level)]),
+    )

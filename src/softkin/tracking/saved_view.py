@@ -1,0 +1,34 @@
+"""A view of the runs for the UI's *Views* menu: its own columns are no metrics."""
+
+from __future__ import annotations
+
+import base64
+import json
+import zlib
+
+from softkin.interface import EXTRAPOLATION, TEST
+
+NAME = "Models by error"
+#: MLflow's UI keeps a saved view in a tag of the experiment; its link ends with viewStateShareKey=models_by_error.
+TAG = "mlflow.sharedViewState.models_by_error"
+COLUMNS = [
+    *(f"metrics.`{subset}/{name}`" for subset in (TEST, EXTRAPOLATION) for name in ("euclidean_mean_mm", "rmse_mm")),
+    "metrics.`cv_mae_mm`",
+    *(f"tags.`{name}`" for name in ("model", "preset", "leak")),
+]
+
+
+def saved_view() -> str:
+    """The tag's value: the models alone, best on test first."""
+    state = {
+        "searchFilter": 'tags.kind = "model"',
+        "orderByKey": COLUMNS[0],
+        "orderByAsc": True,
+        "startTime": "ALL",
+        "lifecycleFilter": "Active",
+        "datasetsFilter": [],
+        "modelVersionFilter": "All Runs",
+        "selectedColumns": COLUMNS,
+    }
+    packed = base64.b64encode(zlib.compress(json.dumps(state).encode())).decode()
+    return json.dumps({"name": NAME, "createdAt": 0, "updatedAt": 0, "state": f"deflate;{packed}"})

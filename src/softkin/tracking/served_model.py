@@ -1,0 +1,38 @@
+"""What MLflow serves of a calibrated model. MLflow copies this file into the model, with the package beside it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import joblib
+import numpy as np
+import pandas as pd
+from mlflow.models import set_model
+from mlflow.pyfunc.model import PythonModel
+
+from softkin.interface import coordinate_columns
+
+
+class ServedModel(PythonModel):
+    """Commands u1, u2, ... -> y_pred_m1_x, ..., lower_m1_x, ..., upper_m1_x, ... in mm, a row per command.
+
+    The parameter `confidence_level` is that of the interval from lower to upper.
+    """
+
+    def load_context(self, context: Any) -> None:
+        """Read the calibrated model."""
+        self.model = joblib.load(context.artifacts["calibrated_model"])
+
+    def predict(self, context: Any, model_input: pd.DataFrame, params: dict[str, Any] | None = None) -> pd.DataFrame:  # noqa: ARG002
+        """Positions and intervals, as the class says."""
+        commands = np.asarray(model_input, dtype=np.float64)
+        positions = self.model.predict(commands)
+        intervals = self.model.intervals(commands, [(params or {})["confidence_level"]])[0]
+        parts = {"y_pred": positions, "lower": intervals[..., 0], "upper": intervals[..., 1]}
+        names = coordinate_columns(positions.shape[1] // 3)
+        return pd.DataFrame(
+            np.hstack(list(parts.values())), columns=[f"{part}_{name}" for part in parts for name in names]
+        )
+
+
+set_model(ServedModel())

@@ -1,0 +1,182 @@
+"""The registered model, loaded from a real store and registry in a temporary folder."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import joblib
+import mlflow.pyfunc
+import numpy as np
+import pandas as pd
+import pytest
+from mlflow import MlflowClient
+from mlflow.exceptions import MlflowException
+
+from softkin.calibrated_model import CalibratedModel, calibrated
+from softkin.files import write_json
+from softkin.fitting import fit_quietly, kinematic_model
+from softkin.interface import SUBSETS, Samples
+from softkin.intervals import INTERVAL_METHODS
+from softkin.models import MODELS
+from softkin.tracking import Campaign, create_store, log_champion
+from softkin.tracking.store import PARENT
+from tests.conftest import bending_arm
+
+NAME = "softkin-finger"
+ABOUT = {"dataset": "finger", "title": "FINGER", "sha256": "ab" * 32, "origin": "published", "n_commands": 2}
+ABOUT |= {"n_markers": 1, "is_cut": False, "rows": dict.fromkeys(SUBSETS, 60)}
+LEAK = {"severity": "leak", "sentence": "Nine rows of test stand in train.", "consequence": "It is training error."}
+
+
+@pytest.fixture
+def campaign(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Campaign:
+    uri = f"sqlite:///{tmp_path / 'mlflow.db'}"
+    monkeypatch.setenv("MLFLOW_TRACKING_URI", uri)
+    monkeypatch.setattr(sys, "path", [*sys.path])  # loading a model adds its code to it
+    create_store(uri)
+    return Campaign("nightly", seed=5, tracking_uri=uri, artifacts=str(tmp_path / "artifacts"))
+
+
+def champion(seed: int = 0) -> CalibratedModel:
+    train: Samples = bending_arm(60, seed=seed)
+    params = {"kernel": "rbf", "trend": "linear", "max_iter": 5}
+    estimator = kinematic_model(MODELS["gp"], params, skip_constant=True, seed=0, threads=1)
+    fit_quietly(estimator, train, 1)
+    method, validation = INTERVAL_METHODS["scp_spread"], bending_arm(60, seed=7)
+    return calibrated("finger", MODELS["gp"], "tuned", method, estimator, train, validation)
+
+
+@pytest.fixture
+def files(tmp_path: Path) -> dict[str, Any]:
+    write_json(tmp_path / "dataset.json", ABOUT)
+    write_json(tmp_path / "data_card.json", {"findings": [LEAK]})
+    joblib.dump(champion(), tmp_path / "calibrated_model.joblib")
+    key = {"dataset": "finger", "model": "gp", "preset": "tuned"}
+    errors = {"euclidean_mean_mm": 0.25, "euclidean_p95_mm": 0.5, "rmse_mm": 0.125}
+    pd.DataFrame([key | {"subset": subset} | errors for subset in SUBSETS]).to_csv(tmp_path / "point.csv", index=False)
+    method = {
+        "interval_method": "scp_spread",
+        "coordinate": "mean_informative",
+        "mean_width_mm": 2.0,
+        "winkler_mm": 3.0,
+    }
+    rows = [
+        key | method | {"subset": subset, "confidence_level": level, "coverage": level + 0.02}
+        for subset in ("test", "extrapolation")
+        for level in (0.8, 0.9)
+    ]
+    pd.DataFrame(rows).to_csv(tmp_path / "intervals.csv", index=False)
+    names = {"description": "dataset.json", "data_card": "data_card.json", "point": "point.csv"}
+    names |= {"intervals": "intervals.csv", "calibrated_model": "calibrated_model.joblib"}
+    return {name: tmp_path / file for name, file in names.items()} | {"parent": "the-campaign"}
+
+
+def alias(client: MlflowClient) -> str:
+    return str(client.get_model_version_by_alias(NAME, "champion").version)
+
+
+def test_the_champion_predicts_what_the_calibrated_model_predicts(campaign: Campaign, files: dict[str, Any]) -> None:
+    log_champion(campaign, **files)
+    served = mlflow.pyfunc.load_model(f"models:/{NAME}@champion")
+    robot = joblib.load(files["calibrated_model"])
+    commands = bending_arm(20, seed=9).commands
+    for params, level in ((None, 0.9), ({"confidence_level": 0.8}, 0.8)):
+        answer = served.predict(pd.DataFrame(commands[:, ::-1], columns=["u2", "u1"]), params=params)
+        assert list(answer) == [f"{part}_m1_{axis}" for part in ("y_pred", "lower", "upper") for axis in "xyz"]
+        np.testing.assert_array_equal(answer.filter(like="y_pred"), robot.predict(commands))
+        bounds = robot.intervals(commands, [level])[0]
+        np.testing.assert_array_equal(answer.filter(like="lower"), bounds[..., 0])
+        np.testing.assert_array_equal(answer.filter(like="upper"), bounds[..., 1])
+    np.testing.assert_array_equal(served.unwrap_python_model().model.box(0.9), robot.box(0.9))
+    with pytest.raises(MlflowException, match="missing inputs"):
+        served.predict(pd.DataFrame({"u1": [0.0]}))
+
+
+def test_it_comes_with_signature_example_requirements_and_its_own_code(
+    campaign: Campaign, files: dict[str, Any]
+) -> None:
+    log_champion(campaign, **files)
+    served = mlflow.pyfunc.load_model(f"models:/{NAME}@champion")
+    assert served.metadata.signature.inputs.input_names() == ["u1", "u2"]
+    assert served.metadata.signature.params.params[0].default == 0.9
+    assert served.input_example.shape == (3, 2)
+    requirements = mlflow.pyfunc.get_model_dependencies(f"models:/{NAME}@champion", format="pip")
+    assert f"crepes=={version('crepes')}" in Path(requirements).read_text()
+    code = (
+        f"import mlflow, pandas; model = mlflow.pyfunc.load_model('models:/{NAME}@champion');"
+        "model.predict(model.input_example); import softkin; print(softkin.__file__)"
+    )
+    elsewhere = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert elsewhere.returncode == 0, elsewhere.stderr[-2000:]
+    assert elsewhere.stdout.strip().endswith("/artifacts/code/softkin/__init__.py")
+
+
+def test_the_card_says_how_good_what_is_promised_what_is_wrong_and_how_to_use_it(
+    campaign: Campaign, files: dict[str, Any], tmp_path: Path
+) -> None:
+    log_champion(campaign, **files)
+    client = MlflowClient(campaign.tracking_uri)
+    version = client.get_model_version_by_alias(NAME, "champion")
+    for part in (
+        "| test | 0.250 | 0.500 | 0.125 | 92.0% | 2.00 |",
+        "in at least 90% of cases",
+        "the 60 rows of `validation`",
+        "**leak**: Nine rows of test stand in train. It is training error.",
+        'load_model("models:/softkin-finger@champion")',
+    ):
+        assert part in version.description
+    run = client.get_run(version.run_id)
+    assert run.data.tags["mlflow.note.content"] == version.description
+    assert run.data.metrics["test/coverage_90"] == 0.92
+    assert f"models:/{run.outputs.model_outputs[0].model_id}" == version.source
+    card = client.download_artifacts(version.run_id, "model_card.md", str(tmp_path))
+    assert Path(card).read_text() == version.description
+    write_json(files["description"], ABOUT | {"origin": "stand-in"})
+    log_champion(campaign, **files)
+    assert "STAND-IN" in client.get_model_version_by_alias(NAME, "champion").description
+
+
+def test_the_same_content_is_no_new_version(campaign: Campaign, files: dict[str, Any]) -> None:
+    assert log_champion(campaign, **files) == "1"
+    assert log_champion(campaign, **files | {"parent": "another"}) == "1"
+    client = MlflowClient(campaign.tracking_uri)
+    (version,) = client.search_model_versions(f"name = '{NAME}'")
+    assert client.get_run(version.run_id).data.tags[PARENT] == "another"
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda files: joblib.dump(champion(seed=1), files["calibrated_model"]),
+        lambda files: write_json(files["data_card"], {"findings": []}),
+    ],
+    ids=["another model", "another card"],
+)
+def test_other_content_is_a_version_that_gets_the_alias(
+    campaign: Campaign, files: dict[str, Any], change: Callable[[dict[str, Any]], object]
+) -> None:
+    log_champion(campaign, **files)
+    commands = bending_arm(5, seed=9).commands
+    before = joblib.load(files["calibrated_model"]).predict(commands)
+    change(files)
+    assert log_champion(campaign, **files) == "2"
+    client = MlflowClient(campaign.tracking_uri)
+    assert alias(client) == "2"
+    named = pd.DataFrame(commands, columns=["u1", "u2"])
+    old, new = (mlflow.pyfunc.load_model(f"models:/{NAME}/{version}") for version in (1, 2))
+    np.testing.assert_array_equal(old.predict(named).filter(like="y_pred"), before)
+    expected = joblib.load(files["calibrated_model"]).predict(commands)
+    np.testing.assert_array_equal(new.predict(named).filter(like="y_pred"), expected)
+
+
+def test_a_result_that_returns_gets_its_version_back(campaign: Campaign, files: dict[str, Any]) -> None:
+    log_champion(campaign, **files)
+    assert log_champion(replace(campaign, name="weekly"), **files) == "2"
+    assert log_champion(campaign, **files) == "1"
+    assert alias(MlflowClient(campaign.tracking_uri)) == "1"

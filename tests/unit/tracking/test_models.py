@@ -1,0 +1,147 @@
+"""Against a real MLflow store in a temporary folder."""
+
+from __future__ import annotations
+
+import base64
+import json
+import zlib
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+from mlflow import MlflowClient
+
+from softkin.files import read_json
+from softkin.interface import SUBSETS
+from softkin.tracking import Campaign, log_dataset, log_intervals
+from softkin.tracking.saved_view import TAG
+from softkin.tracking.store import CONTENT, KEY, PARENT
+from tests.unit.tracking.conftest import snapshot
+
+
+def test_a_run_shows_its_parameters_metrics_history_data_and_files(campaign: Campaign, results: dict[str, Any]) -> None:
+    logged = log_dataset(campaign, **results)
+    client = MlflowClient(campaign.tracking_uri)
+    run = client.get_run(logged["svr/tuned"])
+    assert run.info.run_name == "finger · svr · tuned"
+    assert run.info.status == "FINISHED"
+    assert run.data.params == {"C": "1.0", "kernel": "rbf", "target_space": "cartesian"}
+    assert {f"{subset}/rmse_mm" for subset in SUBSETS} <= set(run.data.metrics)
+    assert run.data.metrics["fit_seconds"] == 3.0
+    assert run.data.metrics["cv_mae_mm"] == 0.5
+    assert run.data.metrics["shell_mae_mm"] == 0.7
+    assert run.data.tags[PARENT] == logged["campaign"]
+    for tag, value in {"dataset": "finger", "preset": "tuned", "seed": "5", "data_sha256": "ab" * 32}.items():
+        assert run.data.tags[tag] == value
+    assert {"git_commit", "softkin_version"} <= set(run.data.tags)
+    history = client.get_metric_history(run.info.run_id, "trials/best_score_mm")
+    assert [(metric.step, metric.value) for metric in history] == [(0, 0.9), (2, 0.5)]
+    assert run.inputs.dataset_inputs[0].dataset.name == "finger"
+    artifacts = {file.path for file in client.list_artifacts(run.info.run_id)}
+    assert artifacts == {"model.joblib", "predictions.parquet", "trials.csv", "parameters.json", "fit.json", "figures"}
+    assert run.info.end_time - run.info.start_time == 3000  # the table shows it as the duration: it is that of the fit
+
+
+def test_a_run_shows_the_figures_that_show_it(campaign: Campaign, results: dict[str, Any]) -> None:
+    logged = log_dataset(campaign, **results)
+    client = MlflowClient(campaign.tracking_uri)
+    shown = {name: {file.path for file in client.list_artifacts(run, "figures")} for name, run in logged.items()}
+    assert shown == {
+        "campaign": {"figures/distribution.png"},
+        "svr/paper": {"figures/ranking.png"},
+        "svr/tuned": {"figures/ranking.png", "figures/tuning_history.png"},
+    }
+    (results["figures"] / "tuning_history.png").write_text("drawn anew")
+    again = log_dataset(campaign, **results)
+    assert [name for name in logged if again[name] != logged[name]] == ["svr/tuned"]
+
+
+def test_children_follow_a_replaced_campaign_run(campaign: Campaign, results: dict[str, Any]) -> None:
+    first = log_dataset(campaign, **results)
+    (results["figures"] / "distribution.png").write_text("drawn anew")
+    second = log_dataset(campaign, **results)
+    assert [name for name in first if second[name] != first[name]] == ["campaign"]
+    children = [run["data"]["tags"].get(PARENT) for run in snapshot(campaign).values()]
+    assert sorted(children, key=str) == sorted([None, second["campaign"], second["campaign"]], key=str)
+
+
+def test_the_newest_runs_are_the_campaign_then_its_models_then_their_intervals(
+    campaign: Campaign, results: dict[str, Any], interval_files: dict[str, Path]
+) -> None:
+    log_intervals(campaign, **interval_files, parents=log_dataset(campaign, **results))
+    newest = sorted(snapshot(campaign).values(), key=lambda run: -run["info"]["start_time"])
+    assert [run["data"]["tags"]["kind"] for run in newest] == ["campaign", "model", "model", "intervals", "intervals"]
+
+
+def test_an_experiment_has_a_note_and_a_view_of_metrics_that_are_there(
+    campaign: Campaign, results: dict[str, Any]
+) -> None:
+    logged = log_dataset(campaign, **results)
+    client = MlflowClient(campaign.tracking_uri)
+    tags = client.get_experiment_by_name("finger").tags
+    assert "Nine rows of test stand in train" in tags["mlflow.note.content"]
+    view = json.loads(tags[TAG])
+    state = json.loads(zlib.decompress(base64.b64decode(view["state"].removeprefix("deflate;"))))
+    run = client.get_run(logged["svr/tuned"]).data
+    shown = {f"metrics.`{name}`" for name in run.metrics} | {f"tags.`{name}`" for name in run.tags}
+    assert set(state["selectedColumns"]) <= shown
+    assert state["orderByKey"] == "metrics.`test/euclidean_mean_mm`"
+    experiment = client.get_experiment_by_name("finger").experiment_id
+    assert len(client.search_runs([experiment], state["searchFilter"])) == 2
+
+
+def test_logging_again_changes_nothing(campaign: Campaign, results: dict[str, Any]) -> None:
+    first = log_dataset(campaign, **results)
+    before = snapshot(campaign)
+    assert log_dataset(campaign, **results) == first
+    assert snapshot(campaign) == before
+    assert len(before) == 3
+
+
+def test_other_timings_alone_are_no_new_result(campaign: Campaign, results: dict[str, Any]) -> None:
+    first = log_dataset(campaign, **results)
+    point = pd.read_csv(results["point"])
+    point.assign(fit_seconds=99.0).to_csv(results["point"], index=False)
+    assert log_dataset(campaign, **results) == first
+
+
+def test_a_changed_result_replaces_its_run_and_no_other(campaign: Campaign, results: dict[str, Any]) -> None:
+    first = log_dataset(campaign, **results)
+    Path(results["runs"]["svr", "tuned"]["predictions"]).write_text("moved")
+    second = log_dataset(campaign, **results)
+    assert second["svr/paper"] == first["svr/paper"]
+    assert second["svr/tuned"] != first["svr/tuned"]
+    assert set(snapshot(campaign)) == set(second.values())
+
+
+def test_a_run_cut_off_before_its_end_is_made_again(campaign: Campaign, results: dict[str, Any]) -> None:
+    first = log_dataset(campaign, **results)
+    client = MlflowClient(campaign.tracking_uri)
+    client.delete_tag(first["svr/paper"], CONTENT)  # it is written last
+    second = log_dataset(campaign, **results)
+    assert second["svr/paper"] != first["svr/paper"]
+    assert len(snapshot(campaign)) == 3
+
+
+def test_a_model_that_left_the_pool_leaves_the_store(campaign: Campaign, results: dict[str, Any]) -> None:
+    log_dataset(campaign, **results)
+    del results["runs"]["svr", "paper"]
+    logged = log_dataset(campaign, **results)
+    assert set(snapshot(campaign)) == set(logged.values())
+
+
+def test_campaigns_stand_side_by_side(campaign: Campaign, results: dict[str, Any]) -> None:
+    one = log_dataset(campaign, **results)
+    other = log_dataset(replace(campaign, name="weekly"), **results)
+    assert not set(one.values()) & set(other.values())
+    assert set(snapshot(campaign)) == set(one.values()) | set(other.values())
+
+
+def test_keys_are_tags_that_can_be_searched(campaign: Campaign, results: dict[str, Any]) -> None:
+    logged = log_dataset(campaign, **results)
+    run = MlflowClient(campaign.tracking_uri).get_run(logged["svr/paper"])
+    assert run.data.tags[KEY] == "nightly/finger/svr/paper"
+    assert run.data.tags["leak"] == "true"
+    assert "Nine rows of test stand in train" in run.data.tags["mlflow.note.content"]
+    assert read_json(results["description"])["dataset"] == "finger"

@@ -1,0 +1,171 @@
+"""The store of a complete run: made again from results/, and on a server."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import socket
+import subprocess
+import sys
+import time
+import urllib.error
+import urllib.request
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import joblib
+import numpy as np
+import pandas as pd
+import pytest
+from mlflow import MlflowClient
+
+from softkin.files import sha256_of
+from softkin.tracking.store import KEY, PARENT
+from tests.conftest import HOUSE
+from tests.workflow.conftest import House
+
+pytestmark = pytest.mark.timeout(300)
+
+
+def files_below(folder: Path, *, hashed: bool) -> dict[str, str]:
+    """Path -> hash, or '' where the content names ids."""
+    files = [path for path in folder.rglob("*") if path.is_file()]
+    return {path.relative_to(folder).as_posix(): sha256_of([path]) if hashed else "" for path in files}
+
+
+def local(uri: str) -> Path:
+    return Path(uri.removeprefix("file://"))
+
+
+def content(work: Path) -> dict[str, Any]:
+    """All that the store shows, apart from ids and times."""
+    client = MlflowClient(f"sqlite:///{work / 'mlflow.db'}")
+    shown: dict[str, Any] = {}
+    for experiment in client.search_experiments():
+        runs = client.search_runs([experiment.experiment_id], max_results=1000)
+        keys = {run.info.run_id: run.data.tags[KEY] for run in runs}
+        shown[experiment.name] = experiment.tags
+        for run in runs:
+            tags = run.data.tags | {PARENT: keys.get(run.data.tags.get(PARENT))}
+            curves = {name for name in run.data.metrics if name.startswith("trials/")}
+            shown[run.data.tags[KEY]] = {
+                "name": (run.info.run_name, run.info.status),
+                "params": run.data.params,
+                "metrics": run.data.metrics,
+                "curves": {
+                    name: [(m.step, m.value) for m in client.get_metric_history(run.info.run_id, name)]
+                    for name in curves
+                },
+                "tags": tags,
+                "inputs": [(i.dataset.name, i.dataset.digest) for i in run.inputs.dataset_inputs],
+                "models": len(run.outputs.model_outputs) if run.outputs else 0,
+                "artifacts": files_below(local(run.info.artifact_uri), hashed=True),
+            }
+    for registered in client.search_registered_models():
+        versions = client.search_model_versions(f"name = '{registered.name}'")
+        shown[registered.name] = (registered.description, registered.aliases)
+        for version in versions:
+            logged = client.get_logged_model(version.source.removeprefix("models:/"))
+            shown[f"{registered.name}/{version.version}"] = {
+                "description": version.description,
+                "tags": version.tags,
+                "run": client.get_run(version.run_id).data.tags[KEY],
+                "model": (logged.name, str(logged.status), files_below(local(logged.artifact_location), hashed=False)),
+            }
+    return shown
+
+
+def without_its_store(house: House, work: Path) -> House:
+    """The run in another folder: its results, and what Snakemake knows of them."""
+    for name in ("results", ".snakemake"):
+        shutil.copytree(house.work / name, work / name)  # keeps the times of modification
+    return House(house.root, work, house.mirror)
+
+
+def test_the_store_is_made_again_from_results_with_the_same_content(house: House, tmp_path: Path) -> None:
+    recipe = re.search(r"^store:.*\n\trm -f (\S+)\n\t\$\(BIN\)/snakemake --cores \$\(CORES\) (.*)$",
+                       (HOUSE / "Makefile").read_text(), re.MULTILINE)  # fmt: skip
+    assert recipe is not None
+    before = content(house.work)
+    assert {"softkin-finger", "softkin-elastica_2023_09/1", "test/finger/champion"} <= set(before)
+    assert "figures/ranking.png" in before["test/finger/gp/tuned"]["artifacts"]
+    assert "model.joblib" in before["test/finger/lr/paper"]["artifacts"]
+    lost = without_its_store(house, tmp_path / "work")
+    (lost.work / recipe[1]).unlink()
+    done = lost.snakemake(*recipe[2].split())
+    assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
+    after = content(lost.work)
+    assert set(after) == set(before)
+    assert {name: (before[name], after[name]) for name in before if after[name] != before[name]} == {}
+
+
+@pytest.fixture
+def server(tmp_path: Path) -> Iterator[str]:
+    """URI of an MLflow server with SQLite behind it, that keeps the artifacts too."""
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    command = [sys.executable, "-m", "mlflow", "server", "--host", "127.0.0.1", "--port", str(port), "--workers", "1"]
+    command += ["--backend-store-uri", f"sqlite:///{tmp_path / 'server.db'}"]
+    command += ["--artifacts-destination", str(tmp_path / "kept")]
+    environment = os.environ | {"MLFLOW_SERVER_ENABLE_JOB_EXECUTION": "false", "MLFLOW_DISABLE_TELEMETRY": "true"}
+    uri = f"http://127.0.0.1:{port}"
+    with (tmp_path / "server.log").open("w") as log:
+        process = subprocess.Popen(command, env=environment, cwd=tmp_path, stdout=log, stderr=log)
+        try:
+            _wait_for(uri, process)
+            yield uri
+        finally:
+            process.terminate()
+            process.wait(30)
+
+
+def _wait_for(uri: str, process: subprocess.Popen[bytes], seconds: float = 120) -> None:
+    until = time.monotonic() + seconds
+    while process.poll() is None and time.monotonic() < until:
+        try:
+            with urllib.request.urlopen(f"{uri}/health", timeout=5):
+                return
+        except (urllib.error.URLError, OSError):
+            time.sleep(0.5)
+    raise AssertionError(f"the server is not up, exit status {process.poll()}")
+
+
+def test_a_server_takes_the_place_of_the_file(house: House, server: str, tmp_path: Path) -> None:
+    """One dataset's results, tracked to a server by an environment variable alone."""
+    elsewhere = without_its_store(house, tmp_path / "work")
+    work = elsewhere.work
+    for _ in range(2):  # the second time nothing is logged anew
+        done = elsewhere.snakemake(
+            "results/finger/mlflow_runs.json", "--forcerun", "track", more_environment={"MLFLOW_TRACKING_URI": server}
+        )
+        assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
+    assert not (work / "mlflow.db").exists()
+    assert not (work / "mlartifacts").exists()
+    client = MlflowClient(server)
+    experiment = client.get_experiment_by_name("finger")
+    runs = client.search_runs([experiment.experiment_id], max_results=1000)
+    local_store = MlflowClient(f"sqlite:///{house.work / 'mlflow.db'}")
+    there = local_store.search_runs([local_store.get_experiment_by_name("finger").experiment_id], max_results=1000)
+    assert {run.data.tags[KEY]: run.data.metrics for run in runs} == {
+        run.data.tags[KEY]: run.data.metrics for run in there
+    }
+    (best,) = [run for run in runs if run.data.tags[KEY] == "test/finger/gp/tuned"]
+    assert {file.path for file in client.list_artifacts(best.info.run_id)} >= {"figures", "model.joblib", "fit.json"}
+    picture = client.download_artifacts(best.info.run_id, "figures/ranking.png", str(tmp_path))
+    assert Path(picture).read_bytes() == (work / "results" / "finger" / "figures" / "ranking.png").read_bytes()
+    assert str(client.get_registered_model("softkin-finger").aliases["champion"]) == "1"
+    code = (
+        "import mlflow; model = mlflow.pyfunc.load_model('models:/softkin-finger@champion');"
+        "model.predict(model.input_example).to_csv('predicted.csv', index=False)"
+    )
+    environment = os.environ | {"MLFLOW_TRACKING_URI": server}
+    subprocess.run([sys.executable, "-c", code], env=environment, cwd=tmp_path, check=True, timeout=200)
+    robot = joblib.load(work / "results" / "finger" / "calibrated_model.joblib")
+    answer = pd.read_csv(tmp_path / "predicted.csv")
+    commands = robot.train.commands[: len(answer)]
+    np.testing.assert_allclose(answer.filter(like="y_pred"), robot.predict(commands), rtol=1e-12)
+    bounds = robot.intervals(commands, [0.9])[0]
+    np.testing.assert_allclose(answer.filter(like="upper"), bounds[..., 1], rtol=1e-12)
