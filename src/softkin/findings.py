@@ -75,6 +75,11 @@ def counted(number: int, noun: str) -> str:
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
+def leaking_subsets(card: Mapping[str, Any]) -> set[str]:
+    """The subsets whose scores are training error, by a data card."""
+    return {subset for finding in card["findings"] if finding["severity"] == LEAK for subset in finding["subsets"]}
+
+
 def worst_severity(findings: Sequence[Finding]) -> str | None:
     """The gravest severity among `findings`, or None."""
     return max((finding.severity for finding in findings), key=SEVERITIES.index, default=None)

@@ -4,7 +4,17 @@ import json
 
 import numpy as np
 
-from softkin.findings import LEAK, MAX_ROWS_LISTED, NOTE, WARNING, Finding, counted, finding_of_rows, worst_severity
+from softkin.findings import (
+    LEAK,
+    MAX_ROWS_LISTED,
+    NOTE,
+    WARNING,
+    Finding,
+    counted,
+    finding_of_rows,
+    leaking_subsets,
+    worst_severity,
+)
 
 
 def test_rows_are_listed_up_to_a_limit_and_all_counted() -> None:
@@ -30,3 +40,12 @@ def test_the_worst_severity_wins() -> None:
 
 def test_a_single_row_is_singular() -> None:
     assert [counted(n, "row") for n in (0, 1, 2)] == ["0 rows", "1 row", "2 rows"]
+
+
+def test_only_a_leak_makes_a_subset_leak() -> None:
+    findings = [
+        Finding("copies", LEAK, ("test", "validation"), "", "").as_dict(),
+        Finding("shift", WARNING, ("extrapolation",), "", "").as_dict(),
+    ]
+    assert leaking_subsets({"findings": findings}) == {"test", "validation"}
+    assert leaking_subsets({"findings": []}) == set()

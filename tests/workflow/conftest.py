@@ -6,6 +6,7 @@ import os
 import shutil
 import subprocess
 import sys
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -23,21 +24,38 @@ class House:
     mirror: Path
 
     def snakemake(
-        self, *options: str, cores: int = 2, work: Path | None = None, more: Path | None = None
+        self,
+        *options: str,
+        cores: int = 2,
+        work: Path | None = None,
+        more: Path | None = None,
+        more_environment: Mapping[str, str] | None = None,
     ) -> subprocess.CompletedProcess[str]:
         """Run it; `more` is one more configuration file."""
+        return subprocess.run(
+            self.command(*options, cores=cores, work=work, more=more),
+            env=self.environment() | dict(more_environment or {}),
+            cwd=self.root,
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=280,
+        )
+
+    def command(self, *options: str, cores: int = 2, work: Path | None = None, more: Path | None = None) -> list[str]:
+        """What `snakemake` runs."""
         command = [sys.executable, "-m", "snakemake", "--cores", str(cores)]
         command += ["--snakefile", str(self.root / "Snakefile"), "--directory", str(work or self.work), *options]
         configuration = [self.root / "config" / "test.yaml", self.mirror / "override.yaml", *([more] if more else [])]
-        command += ["--configfile", *map(str, configuration)]
-        environment = os.environ | {
+        return [*command, "--configfile", *map(str, configuration)]
+
+    def environment(self) -> dict[str, str]:
+        """The variables of a run."""
+        return os.environ | {
             "PYTHONPATH": str(self.root / "src"),
             "SOFTKIN_DATA_MIRROR": str(self.mirror),
             "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}",
         }
-        return subprocess.run(
-            command, env=environment, cwd=self.root, capture_output=True, text=True, check=False, timeout=280
-        )
 
     def jobs(self, more: Path | None = None) -> list[tuple[str, str]]:
         """(rule, wildcards) of what a run would do now."""

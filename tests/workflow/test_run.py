@@ -13,16 +13,17 @@ import yaml
 from mlflow import MlflowClient
 
 from softkin.files import read_json
-from softkin.interface import PRESETS, SUBSETS
+from softkin.interface import PRESETS, SEARCHED, SUBSETS
 from softkin.intervals import INTERVAL_METHODS
 from softkin.models import MODELS
+from softkin.outside import OUTSIDE_METHODS
 from tests.conftest import HOUSE
 from tests.workflow.conftest import House
 
 pytestmark = pytest.mark.timeout(300)
 DATASETS = ("elastica_2023_09", "finger")
 CONFIGURED = yaml.safe_load((HOUSE / "config" / "config.yaml").read_text())
-INTERVAL_STAGES = {"intervals", "score_intervals", "figures", "calibrated_model"}
+INTERVAL_STAGES = {"intervals", "score_intervals", "score_outside", "figures", "calibrated_model"}
 TIMINGS = ["fit_seconds", "predict_us_per_row"]
 
 
@@ -32,19 +33,24 @@ def test_point_metrics_have_a_row_for_everything(house: House) -> None:
     assert set(table[["dataset", "subset", "model", "preset"]].itertuples(index=False, name=None)) == wanted
     assert len(table) == len(wanted)
     columns = "rmse_mm,mae_mm,r2,mape_percent,rmse_informative_mm,mae_informative_mm,r2_informative,euclidean_mean_mm"
-    assert [*columns.split(","), "euclidean_p95_mm", *TIMINGS] == [
+    assert [*columns.split(","), "euclidean_p95_mm", *TIMINGS, "leak"] == [
         c for c in table.columns if c not in ("dataset", "subset", "model", "preset", "mape_informative_percent")
     ]
     assert not table.isna().any().any()
 
 
-def test_selection_follows_the_cross_validation_score(house: House) -> None:
-    selection = pd.read_csv(house.work / "results" / "tables" / "selection.csv").set_index("dataset")
+@pytest.mark.parametrize(("objective", "score"), [("interpolation", "cv_mae_mm"), ("extrapolation", "shell_mae_mm")])
+def test_selection_follows_the_score_of_its_objective(house: House, objective: str, score: str) -> None:
+    selection = pd.read_csv(house.work / "results" / "tables" / "selection.csv").set_index(["dataset", "objective"])
     for dataset in DATASETS:
-        files = {model: house.work / "results" / dataset / model / "tuned" / "parameters.json" for model in MODELS}
-        scores = {model: read_json(file)["cv_mae_mm"] for model, file in files.items()}
-        assert selection.loc[dataset, "model"] == min(scores, key=lambda model: scores[model])
-        assert selection.loc[dataset, "cv_mae_mm"] == min(scores.values())
+        scores = {
+            (model, preset): read_json(house.work / "results" / dataset / model / preset / "parameters.json")[score]
+            for model in MODELS
+            for preset in SEARCHED
+        }
+        chosen = selection.loc[(dataset, objective)]
+        assert chosen[score] == min(scores.values())
+        assert (chosen["model"], chosen["preset"]) == min(scores, key=lambda run: scores[run])
 
 
 def test_the_paper_tables_are_laid_out_and_cut_rows_are_marked(house: House) -> None:
@@ -69,6 +75,7 @@ def test_interval_metrics_have_a_row_for_everything(house: House) -> None:
     assert not table.duplicated(keys).any()
     rows = table["interval_method"].value_counts().to_dict()
     around = {"predictions": 16, "spreads": 6, "predictive": 4, "quantiles": 4, "folds": 12, "resamples": 12}
+    around["shells"] = 2  # the paper's run and the chosen one
     expected = {name: 2 * 2 * around[INTERVAL_METHODS[name].on] * 6 * 3 for name in CONFIGURED["interval_methods"]}
     assert rows == expected | dict.fromkeys(CONFIGURED["regions"], 2 * 2 * 16 * 3)
     engines = table[table["interval_method"].str.startswith("scp")].pivot(
@@ -83,6 +90,22 @@ def test_interval_metrics_have_a_row_for_everything(house: House) -> None:
     assert choice.groupby("dataset")["chosen"].sum().to_dict() == dict.fromkeys(DATASETS, 1)
     assert choice["test_winkler_mm"].gt(0).all()
     assert published["explanation"].str.contains("nearest single coordinate").all()
+
+
+def test_every_interval_outside_train_stands_beside_the_oracle(house: House) -> None:
+    table = pd.read_csv(house.work / "results" / "tables" / "extrapolation_intervals.csv")
+    runs = table.groupby("dataset")[["model", "preset"]].apply(lambda rows: set(map(tuple, rows.to_numpy())))
+    for dataset in DATASETS:
+        assert ("gb", "paper") in runs[dataset]
+        assert len(runs[dataset]) == 2
+        assert (house.work / "results" / dataset / "figures" / "outside.png").is_file()
+    assert set(OUTSIDE_METHODS) | {"scp_mapie", "scp_distance", "auto"} <= set(table["interval_method"])
+    scored = table[table["refused"].isna()]
+    oracle = scored[scored["interval_method"] == "oracle"]
+    assert (oracle["coverage"] >= oracle["confidence_level"]).all()
+    np.testing.assert_allclose(scored["winkler_ratio_to_oracle"], scored["winkler_mm"] / scored["oracle_winkler_mm"])
+    promised = table[(table["subset"] == "extrapolation") & (table["guarantee"] != "no guarantee")]
+    assert set(promised["interval_method"]) == {"oracle", "few_labels", "few_labels_distance", "adaptive"}
 
 
 def test_a_single_file_can_be_asked_for(house: House, tmp_path: Path) -> None:
@@ -106,17 +129,23 @@ def test_the_store_holds_a_child_run_per_model_and_preset(house: House) -> None:
     for dataset in DATASETS:
         experiment = client.get_experiment_by_name(dataset)
         runs = client.search_runs([experiment.experiment_id], max_results=1000)
-        nested = [run for run in runs if "interval_method" in run.data.tags]
+        nested = [run for run in runs if run.data.tags["kind"] == "intervals"]
         # SCP by two engines and by distance, predictive system and regions on every run; by spread on three models,
-        # the own interval on two, CV+ and jackknife+ on six; QR and CQR on two learners
-        assert len(nested) == 5 * 16 + (3 + 2 + 6 + 6) * 2 + 2 * 4
+        # the own interval on two; CV+ and jackknife+ on eight models, QR and CQR on two learners, in two presets each;
+        # four on shells of the paper's run, the chosen one and the robust one
+        with np.load(house.work / "results" / dataset / "shells.npz") as archive:
+            on_shells = {name.rsplit("/", 1)[0] for name in archive.files if "/" in name}
+        assert {"gb/paper", "huber/outer"} <= on_shells
+        assert len(on_shells) <= 3
+        assert len(nested) == 5 * 30 + (3 + 2) * 3 + (8 + 8) * 2 + 2 * 4 + 4 * len(on_shells)
         assert {run.data.tags["mlflow.parentRunId"] for run in nested} <= {run.info.run_id for run in runs}
         parents = [run for run in runs if "mlflow.parentRunId" not in run.data.tags]
         assert len(parents) == 1
         children = [run for run in runs if run.data.tags.get("mlflow.parentRunId") == parents[0].info.run_id]
+        children = [run for run in children if run.data.tags["kind"] == "model"]
         names = {(run.data.tags["model"], run.data.tags["preset"]) for run in children}
         assert names == {(model, preset) for model in MODELS for preset in PRESETS}
-        assert len(children) == 16
+        assert len(children) == 30
 
 
 def test_a_second_run_does_nothing(house: House) -> None:
@@ -139,7 +168,7 @@ def test_editing_a_model_reruns_its_jobs_and_no_others(house: House) -> None:
         jobs = house.jobs()
     finally:
         file.write_text(original)
-    jobs = [job for job in jobs if job[0] not in INTERVAL_STAGES | {"refit"}]
+    jobs = [job for job in jobs if job[0] not in INTERVAL_STAGES | {"refit", "refit_shells"}]
     per_model = {job for job in jobs if job[0] in ("tune", "fit_paper", "fit_tuned", "predict")}
     assert {rule for rule, _ in per_model} == {"tune", "fit_paper", "fit_tuned", "predict"}
     assert all("model=svr" in wildcards for _, wildcards in per_model)
@@ -157,7 +186,9 @@ def test_editing_a_model_reruns_its_jobs_and_no_others(house: House) -> None:
         ("tracking/store.py", {"track"}),
         ("intervals/split_conformal_crepes.py", INTERVAL_STAGES | {"tables", "track"}),
         ("regions/balls.py", {"score_intervals", "figures", "tables", "track"}),
-        ("refitting.py", INTERVAL_STAGES | {"refit", "tables", "track"}),
+        ("refitting.py", INTERVAL_STAGES | {"refit", "refit_shells", "tables", "track"}),
+        ("growth.py", INTERVAL_STAGES | {"tables", "track"}),
+        ("outside/adaptive.py", {"score_outside", "figures", "tables", "track"}),
         ("metrics/interval.py", INTERVAL_STAGES | {"tables", "track"}),
     ],
 )

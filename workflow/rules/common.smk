@@ -8,7 +8,7 @@ import softkin
 from softkin.configuration import check_configuration
 from softkin.datasets import READERS, reader_files
 from softkin.datasets.reaching import warning, with_stand_ins
-from softkin.interface import PAPER, PRESETS, SoftkinError, TUNED
+from softkin.interface import PAPER, PRESETS, SEARCHED, SoftkinError, TUNED
 from softkin.intervals import INTERVAL_METHODS
 from softkin.models import MODELS, source_files
 from softkin.quantile_models import QUANTILE_MODELS
@@ -46,6 +46,12 @@ PUBLISHED = Path(workflow.basedir) / "config" / "published"
 SOFTWARE = "../envs/softkin.yaml"
 HEADLINE = "results/tables/headline.txt"
 REPORT = "results/report.html"
+# To be pasted into a paper.
+PAPER_TABLES = [
+    f"{name}.{ending}"
+    for name in ("paper_tables", "interval_tables")
+    for ending in ("md", "tex")
+]
 TABLES = [
     "point_metrics.csv",
     "marker_errors.csv",
@@ -53,10 +59,16 @@ TABLES = [
     "interval_choice.csv",
     "conditional_coverage.csv",
     "alarm_rates.csv",
+    "extrapolation_intervals.csv",
     "published_comparison.csv",
     "published_intervals.csv",
-    *(["published_columns.csv", "selection.csv"] if TUNED in config["presets"] else []),
+    *(["published_columns.csv"] if TUNED in config["presets"] else []),
+    *(["selection.csv", "searched_runs.csv"] if set(SEARCHED) & set(config["presets"]) else []),
 ]
+
+
+# The presets that a study stands behind.
+SEARCHED_PRESETS = [preset for preset in config["presets"] if preset in SEARCHED]
 
 
 wildcard_constraints:
@@ -66,14 +78,14 @@ wildcard_constraints:
     quantile_model="|".join(QUANTILE_MODELS),
 
 
-def package(*modules):
-    """Modules of softkin that decide a rule's result: Snakemake does not see imports, it sees inputs."""
-    return [PACKAGE / module for module in modules]
+def of_presets(name, presets=tuple(config["presets"])):
+    """One file of a model for each of these presets."""
+    return [f"results/{{dataset}}/{{model}}/{preset}/{name}" for preset in presets]
 
 
-def model_code(wildcards):
-    """The files that define one model."""
-    return source_files(wildcards.model)
+def of_searched(name):
+    """One file of a model for each preset that a study stands behind."""
+    return of_presets(name, SEARCHED_PRESETS)
 
 
 def max_fit_rows(wildcards):
@@ -86,30 +98,21 @@ def source(wildcards):
     return config["sources"][wildcards.dataset]
 
 
+def robot(wildcards):
+    """What studies and fits must know of a robot: its base, and how the norm of a command is taken."""
+    entry = source(wildcards)
+    return {"base": entry.get("base"), "standardised_norm": "split" in entry}
+
+
+def tracking_uri():
+    """The store: MLFLOW_TRACKING_URI goes before the configuration."""
+    return os.environ.get("MLFLOW_TRACKING_URI") or config["tracking_uri"]
+
+
 def own_file(wildcards):
     """The file of one's own that an entry without `urls` names: retrieved again when it changes."""
     entry = source(wildcards)
     return [] if "urls" in entry or "robot" in entry else [entry["file"]]
-
-
-def reader_code(wildcards):
-    """The files that decide how a dataset's file is read."""
-    return reader_files(source(wildcards)["format"])
-
-
-def cleaning_code(wildcards):
-    """The files that decide which rows of train are dropped, where the entry asks for it."""
-    names = ("cleaning", "duplicate_rows", "stuck_poses")
-    return (
-        package(
-            "findings.py",
-            "rows.py",
-            "smooth_fit.py",
-            *(f"auditing/{name}.py" for name in names),
-        )
-        if source(wildcards).get("clean")
-        else []
-    )
 
 
 def warn_of_stand_ins():
@@ -129,6 +132,11 @@ def every_run(models=tuple(config["models"])):
     return [[model, preset] for model in models for preset in config["presets"]]
 
 
+def searched_runs():
+    """[model, preset] of each run that a study stands behind."""
+    return [run for run in every_run() if run[1] in SEARCHED]
+
+
 def run_files(name, presets=tuple(PRESETS), models=tuple(config["models"])):
     """One file of each run of a dataset, in the order of `every_run`."""
     return [
@@ -141,7 +149,10 @@ def run_files(name, presets=tuple(PRESETS), models=tuple(config["models"])):
 # The models that CV+ and jackknife+-after-bootstrap refit, if any of these methods is asked for.
 CHEAP_MODELS = [name for name in config["models"] if MODELS[name].is_cheap]
 QUANTILE_RUNS = [
-    [name, preset] for name in config["quantile_models"] for preset in config["presets"]
+    [name, preset]
+    for name in config["quantile_models"]
+    for preset in config["presets"]
+    if preset in (PAPER, TUNED)
 ]
 
 
@@ -161,6 +172,7 @@ def stored_outputs(wildcards):
             quantiles.format(*run) for run in QUANTILE_RUNS if asks_for("quantiles")
         ],
         "refits": ["results/{dataset}/refits.npz"] * asks_for("folds", "resamples"),
+        "shells": ["results/{dataset}/shells.npz"] * asks_for("shells"),
     }
     return {
         name: expand(paths, dataset=wildcards.dataset)
@@ -179,42 +191,6 @@ def interval_params():
     }
 
 
-# All figures of a dataset are one job. Not imported: their libraries would be, every time Snakemake starts.
-FIGURE_CODE = sorted((PACKAGE / "figures").glob("*.py"))
-# What decides how stored outputs become what a method sees.
-EVIDENCE_CODE = [
-    "evidence.py",
-    "bounds.py",
-    "conformal.py",
-    "datasets/table.py",
-    "estimators/column.py",
-    "estimators/refitted.py",
-]
-
-
-def files_of(functions):
-    """The files that define these functions."""
-    names = {getattr(function, "func", function).__module__ for function in functions}
-    return [Path(sys.modules[name].__file__) for name in sorted(names)]
-
-
-def interval_code():
-    """The files that define the configured interval methods."""
-    return files_of(
-        INTERVAL_METHODS[name].intervals for name in config["interval_methods"]
-    )
-
-
-def region_code():
-    """The files that define the configured regions."""
-    return files_of(REGION_METHODS[name].region for name in config["regions"])
-
-
-def quantile_code(wildcards):
-    """The file that defines one learner of quantiles."""
-    return files_of([QUANTILE_MODELS[wildcards.quantile_model].build])
-
-
 def quantile_parameters(wildcards):
     """For the tuned preset, what its study found."""
     path = "results/{dataset}/quantiles/{quantile_model}/tuned/parameters.json"
@@ -222,7 +198,7 @@ def quantile_parameters(wildcards):
 
 
 def of_every_dataset(patterns):
-    """The files of the first dataset, then those of the second, ...: the order of `every_dataset_and_model`."""
+    """The files of the first dataset, then those of the second, ...: the order of `every_study`."""
     return [
         path
         for dataset in config["datasets"]
@@ -230,10 +206,10 @@ def of_every_dataset(patterns):
     ]
 
 
-def every_dataset_and_model():
-    """[dataset, model] of each study."""
+def every_study():
+    """[dataset, model, preset] of each study."""
     return [
-        [dataset, model] for dataset in config["datasets"] for model in config["models"]
+        [dataset, *run] for dataset in config["datasets"] for run in searched_runs()
     ]
 
 
@@ -242,8 +218,7 @@ def final_output():
     return [
         REPORT,
         HEADLINE,
-        "results/tables/paper_tables.md",
-        "results/tables/paper_tables.tex",
+        *(f"results/tables/{name}" for name in PAPER_TABLES),
         "results/tables/figures",
         *(f"results/tables/{name}" for name in TABLES),
         *expand(

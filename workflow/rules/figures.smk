@@ -15,12 +15,14 @@ rule figures:
         interval_metrics="results/{dataset}/interval_metrics.csv",
         choice="results/{dataset}/interval_choice.csv",
         conditional="results/{dataset}/conditional_coverage.csv",
+        outside="results/{dataset}/extrapolation_intervals.csv",
         code=package(
             "bounds.py",
             "datasets/table.py",
             "metrics/point.py",
             "choosing_intervals.py",
             "findings.py",
+            "outside/method.py",
         ),
         figure_code=FIGURE_CODE,
     output:
@@ -34,6 +36,8 @@ rule figures:
         ),
     log:
         "results/logs/figures/{dataset}.log",
+    benchmark:
+        "results/benchmarks/figures/{dataset}.tsv"
     priority: 30
     conda:
         SOFTWARE
@@ -58,6 +62,8 @@ rule campaign_figures:
         directory("results/tables/figures"),
     log:
         "results/logs/campaign_figures.log",
+    benchmark:
+        "results/benchmarks/campaign_figures.tsv"
     conda:
         SOFTWARE
     threads: 1

@@ -7,10 +7,10 @@ rule report:
         data_cards=of_every_dataset("results/{dataset}/data_card.json"),
         figures=of_every_dataset("results/{dataset}/figures"),
         campaign_figures="results/tables/figures",
-        records=[record for _, _, record in recorded_jobs()],
-        benchmarks=[job[1] for job in recorded_jobs() + unrecorded_jobs()],
+        records=[record for _, _, records in timed_jobs() for record in records],
+        benchmarks=[benchmark for _, benchmark, _ in timed_jobs()],
         citation=Path(workflow.basedir) / "CITATION.cff",
-        code=package("tables/published.py", "tables/paper_layout.py"),
+        code=package("durations.py", "tables/published.py", "tables/paper_layout.py"),
         page=report_code(),
     output:
         report(
@@ -21,10 +21,12 @@ rule report:
         ),
     log:
         "results/logs/report.log",
+    benchmark:
+        "results/benchmarks/report.tsv"
     conda:
         SOFTWARE
     params:
-        jobs=[job[0] for job in recorded_jobs() + unrecorded_jobs()],
+        jobs=timed_jobs(),
         config=config,
     script:
         "../scripts/report.py"

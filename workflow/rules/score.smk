@@ -12,6 +12,8 @@ rule score:
         markers="results/{dataset}/marker_errors.csv",
     log:
         "results/logs/score/{dataset}.log",
+    benchmark:
+        "results/benchmarks/score/{dataset}.tsv"
     priority: 30
     conda:
         SOFTWARE

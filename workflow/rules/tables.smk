@@ -8,9 +8,10 @@ rule tables:
         choices=of_every_dataset("results/{dataset}/interval_choice.csv"),
         conditional=of_every_dataset("results/{dataset}/conditional_coverage.csv"),
         alarms=of_every_dataset("results/{dataset}/alarm_rates.csv"),
+        outside=of_every_dataset("results/{dataset}/extrapolation_intervals.csv"),
         descriptions=of_every_dataset("results/{dataset}/dataset.json"),
         data_cards=of_every_dataset("results/{dataset}/data_card.json"),
-        parameters=of_every_dataset(run_files("parameters.json", [TUNED])),
+        parameters=of_every_dataset(run_files("parameters.json", SEARCHED)),
         published=PUBLISHED / "point_metrics.csv",
         subsets=PUBLISHED / "subsets.csv",
         published_intervals=PUBLISHED / "interval_metrics.csv",
@@ -19,6 +20,9 @@ rule tables:
             "tables/published.py",
             "tables/published_intervals.py",
             "tables/interval_choice.py",
+            "tables/interval_layout.py",
+            "tables/leaks.py",
+            "findings.py",
             "tables/selection.py",
             "tables/paper_layout.py",
             "tables/headline.py",
@@ -32,12 +36,12 @@ rule tables:
         ),
         paper=[
             report(
-                f"results/tables/paper_tables.{ending}",
+                f"results/tables/{name}",
                 caption="../report/paper_tables.rst",
                 category="Tables",
-                labels={"table": f"paper_tables.{ending}"},
+                labels={"table": name},
             )
-            for ending in ("md", "tex")
+            for name in PAPER_TABLES
         ],
         tables=[
             report(
@@ -50,10 +54,13 @@ rule tables:
         ],
     log:
         "results/logs/tables.log",
+    benchmark:
+        "results/benchmarks/tables.tsv"
     conda:
         SOFTWARE
     params:
-        studies=every_dataset_and_model(),
+        studies=every_study(),
+        objective=config["objective"],
         sources={name: config["sources"][name] for name in config["datasets"]},
     script:
         "../scripts/tables.py"

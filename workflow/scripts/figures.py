@@ -37,6 +37,7 @@ with job(snakemake.log[0], f"figures {dataset}"):
         interval_metrics=Path(given.interval_metrics),
         choice=Path(given.choice),
         conditional=Path(given.conditional),
+        outside=Path(given.outside),
         notes=notes,
         model_titles={name: spec.title for name, spec in learners.items()},
         method_titles={name: method.title for name, method in INTERVAL_METHODS.items()},

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from softkin.figures import (
+    believed,
     calibration,
     conditional_coverage,
     distance,
     distribution,
     importance,
     intervals,
+    outside,
     position_curves,
     published,
     ranking,
@@ -24,6 +26,7 @@ from softkin.interface import CampaignResults, DatasetResults, FigureSpec
 FIGURES: dict[str, FigureSpec[DatasetResults]] = {
     "ranking": ranking.FIGURE,
     "robot": robot.FIGURE,
+    "believed": believed.FIGURE,
     "position_curves": position_curves.FIGURE,
     "distribution": distribution.FIGURE,
     "distance": distance.FIGURE,
@@ -34,6 +37,7 @@ FIGURES: dict[str, FigureSpec[DatasetResults]] = {
     "calibration": calibration.FIGURE,
     "width": width.FIGURE,
     "conditional_coverage": conditional_coverage.FIGURE,
+    "outside": outside.FIGURE,
     "tuning_history": tuning_history.FIGURE,
     "importance": importance.FIGURE,
 }

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from softkin.figures.reading import candidates, chosen
-from softkin.figures.style import BLACK, PALETTE, heading, panels
+from softkin.figures.style import BLACK, PAGE, PALETTE, heading, legend_below, panels
 from softkin.interface import DatasetResults, FigureSpec
 
 if TYPE_CHECKING:
@@ -21,6 +21,8 @@ PANELS = {
     "marker": "marker",
     "slab": "worst slab of\ncommand space",
 }
+#: Panels in a row: their labels keep their size on a page.
+ACROSS = 3
 #: The two engines agree, so one of them is drawn.
 LEFT_OUT = ("scp_crepes",)
 MARKS = "osD^vP*X"
@@ -44,10 +46,14 @@ def frame(results: DatasetResults) -> pd.DataFrame:
 def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     """A panel for each way to group the rows; bars are two standard errors, the line is the nominal level."""
     shown = [by for by in PANELS if by in set(frame["by"])]
-    widths = [max(0.6, frame.loc[frame["by"] == by, "group"].nunique() / 5) for by in shown]
-    figure, axes = panels(1, len(shown), 11.0, 4.2, sharey=True, width_ratios=widths)
+    n_columns = min(ACROSS, len(shown))
+    n_rows = -(-len(shown) // n_columns)
+    figure, axes = panels(n_rows, n_columns, PAGE, 0.6 + 2.6 * n_rows, sharey=True)
+    places = [axis for row in axes for axis in row]
+    for axis in places[len(shown) :]:
+        axis.set_axis_off()
     titles = list(frame["title"].unique())
-    for column, by in enumerate(shown):
+    for axis, by in zip(places, shown, strict=False):
         panel = frame[frame["by"] == by]
         groups = list(dict.fromkeys(panel["group"]))
         for place, title in enumerate(titles):
@@ -55,7 +61,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
             if rows.empty:
                 continue
             shift = (place - (len(titles) - 1) / 2) * 0.7 / len(titles)
-            axes[0][column].errorbar(
+            axis.errorbar(
                 np.array([groups.index(group) for group in rows.index]) + shift,
                 rows["coverage"],
                 yerr=2 * rows["standard_error"],
@@ -65,13 +71,13 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
                 linewidth=1,
                 label=title,
             )
-        axes[0][column].axhline(panel["confidence_level"].iloc[0], color=BLACK, linewidth=0.8, linestyle="--")
-        axes[0][column].set_xticks(range(len(groups)), groups)
-        axes[0][column].set_xlabel(PANELS[by])
-    axes[0][0].set_ylabel("coverage on test")
+        axis.axhline(panel["confidence_level"].iloc[0], color=BLACK, linewidth=0.8, linestyle="--")
+        axis.set_xticks(range(len(groups)), groups)
+        axis.set_xlabel(PANELS[by])
+    for row in axes:
+        row[0].set_ylabel("coverage on test")
     axes[0][0].set_ylim(top=1.02)
-    handles, labels = axes[0][0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=4, frameon=False)
+    legend_below(figure, axes[0][0].get_legend_handles_labels()[0], 3)
     heading(figure, results, "is the coverage there everywhere?")
     return figure
 

@@ -36,7 +36,7 @@ def _importances(trials: pd.DataFrame) -> pd.DataFrame:
     from sklearn.ensemble import RandomForestRegressor
     from sklearn.inspection import permutation_importance
 
-    complete = trials[trials["cv_mae_mm"] > 0]
+    complete = trials[trials["score_mm"] > 0]
     names = [name for name in complete if name.startswith(PREFIX) and complete[name].nunique(dropna=False) > 1]
     if len(complete) < LEAST_TRIALS or not names:
         return pd.DataFrame()
@@ -47,7 +47,7 @@ def _importances(trials: pd.DataFrame) -> pd.DataFrame:
             for name in names
         }
     )
-    score = np.log(complete["cv_mae_mm"])
+    score = np.log(complete["score_mm"])
     forest = RandomForestRegressor(32, random_state=0).fit(numbers, score)
     found = permutation_importance(forest, numbers, score, n_repeats=5, random_state=0)
     columns = {"importance": found.importances_mean, "spread": found.importances_std, "n_trials": len(complete)}

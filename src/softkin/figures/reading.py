@@ -59,11 +59,11 @@ def predicted(results: DatasetResults, run: Run, subset: str, columns: list[str]
     return np.ascontiguousarray(frame.to_numpy(np.float64))
 
 
-def bounds(results: DatasetResults, method: str, run: Run, confidence_level: float) -> Array | None:
-    """Intervals on `test`, (n_rows, n_coordinates, 2) in mm; None when the method has none around this run."""
-    mine = [("model", "==", run[0]), ("preset", "==", run[1]), ("subset", "==", TEST)]
+def bounds(results: DatasetResults, method: str, run: Run, confidence_level: float, subset: str = TEST) -> Array | None:
+    """Intervals on a subset, (n_rows, n_coordinates, 2) in mm; None when the method has none around this run."""
+    mine = [("model", "==", run[0]), ("preset", "==", run[1]), ("subset", "==", subset)]
     stored = pd.read_parquet(results.intervals[method], filters=mine)
-    return None if stored.empty else np.asarray(read_bounds(stored, TEST, [confidence_level])[0])
+    return None if stored.empty else np.asarray(read_bounds(stored, subset, [confidence_level])[0])
 
 
 def mean_marker_errors(results: DatasetResults, run: Run, subset: str) -> Array:

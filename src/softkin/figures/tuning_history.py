@@ -14,13 +14,13 @@ if TYPE_CHECKING:
 
 
 def frame(results: DatasetResults) -> pd.DataFrame:
-    """Columns model, preset, interval_method, trial, cv_mae_mm, best_mm: a row per complete trial, and the best score
+    """Columns model, preset, interval_method, trial, score_mm, best_mm: a row per complete trial, and the best score
     up to it.
     """
     parts = []
     for model, path in results.trials.items():
-        trials = pd.read_csv(path)[["trial", "cv_mae_mm"]].dropna().sort_values("trial")
-        parts.append(trials.assign(model=model, preset=TUNED, interval_method="", best_mm=trials["cv_mae_mm"].cummin()))
+        trials = pd.read_csv(path)[["trial", "score_mm"]].dropna().sort_values("trial")
+        parts.append(trials.assign(model=model, preset=TUNED, interval_method="", best_mm=trials["score_mm"].cummin()))
     return pd.concat(parts, ignore_index=True) if parts else pd.DataFrame()
 
 
@@ -30,7 +30,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     last = frame["trial"].max()
     for model, trials in frame.groupby("model", sort=False):
         colour, mark = LOOKS[str(model)]
-        axes.semilogy(trials["trial"], trials["cv_mae_mm"], mark, color=colour, markersize=3, alpha=0.45)
+        axes.semilogy(trials["trial"], trials["score_mm"], mark, color=colour, markersize=3, alpha=0.45)
         steps = [*trials["trial"], last], [*trials["best_mm"], trials["best_mm"].iloc[-1]]
         axes.step(*steps, where="post", color=colour, linewidth=1.5)
     logarithmic(axes.yaxis)

@@ -8,10 +8,11 @@ from typing import Any
 
 import pandas as pd
 
-from softkin.interface import EXTRAPOLATION, TEST, TUNED
+from softkin.interface import EXTRAPOLATION, TEST
 from softkin.report.grid import number_text, share_text
 from softkin.report.marks import Mark, Marks
 from softkin.report.scores import interval_rows
+from softkin.tables.selection import deployed
 
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -50,7 +51,7 @@ def robot_cards(
         answer, figure, remark = "No model was chosen: nothing was tuned.", "", ""
         errors: Facts = []
         if "selection" in frames:
-            chosen = frames["selection"].set_index("dataset").loc[dataset]
+            chosen = deployed(frames["selection"]).set_index("dataset").loc[dataset]
             answer = models[chosen["model"]]
             figure, errors, remark = _errors(frames["point_metrics"], dataset, chosen, models)
         choice = frames["interval_choice"]
@@ -63,15 +64,15 @@ def robot_cards(
 
 def _errors(scores: pd.DataFrame, dataset: str, chosen: pd.Series, models: Mapping[str, str]) -> tuple[str, Facts, str]:
     """The mean error on test; further errors; a remark where a few rows set that mean."""
-    mine = scores[(scores["dataset"] == dataset) & (scores["model"] == chosen["model"]) & (scores["preset"] == TUNED)]
-    by_subset = mine.set_index("subset")
+    mine = scores[(scores["dataset"] == dataset) & (scores["model"] == chosen["model"])]
+    by_subset = mine[mine["preset"] == chosen["preset"]].set_index("subset")
     test, outside = by_subset.loc[TEST], by_subset.loc[EXTRAPOLATION]
     facts = [
         ("95 % of cases below", length(test["euclidean_p95_mm"])),
         ("mean beyond the training range", length(outside["euclidean_mean_mm"])),
     ]
     if isinstance(chosen["runner_up"], str) and chosen["runner_up"]:
-        ratio = number_text(chosen["runner_up_cv_mae_mm"] / chosen["cv_mae_mm"])
+        ratio = number_text(chosen["runner_up_ratio"])
         facts.append(("runner-up", f"{models[chosen['runner_up']]}, {ratio} times the error"))
     is_skewed = test["euclidean_mean_mm"] > test["euclidean_p95_mm"]
     remark = "A few gross misses set the mean, which exceeds the 95th percentile." if is_skewed else ""

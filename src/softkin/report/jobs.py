@@ -7,9 +7,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 
+from softkin.durations import readable
 from softkin.files import read_json
 from softkin.report.grid import NOTHING, Cell, Column, Grid, number
 
@@ -19,7 +21,7 @@ N_SLOWEST = 15
 @dataclass(frozen=True, slots=True)
 class Job:
     """One measured job: its rule, dataset, model and preset (empty: all of them), Snakemake's benchmark file, and the
-    record that the job wrote of itself, if it did: `n_trials` and `n_pruned` of a study, `fit_seconds` of a fit.
+    records that the job wrote of itself, if it did: `n_trials` and `n_pruned` of a study, `fit_seconds` of a fit.
     """
 
     rule: str
@@ -27,26 +29,31 @@ class Job:
     model: str
     preset: str
     benchmark: Path
-    record: Path | None = None
+    records: tuple[Path, ...] = ()
 
 
 def measured(jobs: Sequence[Job]) -> pd.DataFrame:
     """Columns rule, dataset, model, preset, seconds, cpu_seconds, memory_mb (peak resident), ended (UTC), n_trials,
-    n_pruned and fit_seconds (NaN where not recorded), one row per job.
+    n_pruned and fit_seconds (their sums over the job's records; NaN where not recorded), one row per job.
     """
     rows = []
     for job in jobs:
         benchmark = pd.read_csv(job.benchmark, sep="\t", na_values="-").iloc[-1]
-        record = read_json(job.record) if job.record else {}
+        records = [read_json(record) for record in job.records]
         rows.append(
             {
                 **{"rule": job.rule, "dataset": job.dataset, "model": job.model, "preset": job.preset},
                 **{"seconds": benchmark["s"], "cpu_seconds": benchmark["cpu_time"], "memory_mb": benchmark["max_rss"]},
                 "ended": datetime.fromtimestamp(job.benchmark.stat().st_mtime, UTC),
-                **{name: record.get(name, float("nan")) for name in ("n_trials", "n_pruned", "fit_seconds")},
+                **{name: _sum(records, name) for name in ("n_trials", "n_pruned", "fit_seconds")},
             }
         )
     return pd.DataFrame(rows)
+
+
+def _sum(records: Sequence[Mapping[str, Any]], name: str) -> float:
+    values = [float(record[name]) for record in records if name in record]
+    return sum(values) if values else float("nan")
 
 
 def slowest_grid(times: pd.DataFrame, models: Mapping[str, str]) -> Grid:
@@ -81,11 +88,3 @@ def duration(times: pd.DataFrame) -> str:
         f"{total} in {len(times)} measured jobs, added up ({cpu} of CPU), most of it in {longest}; by their files they "
         f"ended between {first} and {last} UTC"
     )
-
-
-def readable(seconds: float) -> str:
-    """'2 h 5 min', '3 min 7 s', '4.2 s'."""
-    if seconds < 60:
-        return f"{seconds:.1f} s"
-    minutes, rest = divmod(round(seconds), 60)
-    return f"{minutes} min {rest} s" if minutes < 60 else f"{minutes // 60} h {minutes % 60} min"

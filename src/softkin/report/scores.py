@@ -6,9 +6,10 @@ from collections.abc import Mapping
 
 import pandas as pd
 
-from softkin.interface import MARGINAL, TEST, TUNED
+from softkin.interface import MARGINAL, TEST
 from softkin.report.grid import NOTHING, Cell, Column, Grid, number, number_text, share, share_text
 from softkin.report.marks import CHOSEN, Marks
+from softkin.tables.selection import deployed
 
 ROBOT, SUBSET = Column("Robot", filtered=True), Column("Rows", filtered=True, preset=TEST)
 MODEL, PRESET = Column("Model", filtered=True), Column("Preset", filtered=True)
@@ -18,12 +19,13 @@ RUN = ["dataset", "subset", "model", "preset", "interval_method", "confidence_le
 
 def point_grid(scores: pd.DataFrame, selection: pd.DataFrame | None, models: Mapping[str, str], marks: Marks) -> Grid:
     """One row per robot, subset, model and preset; the chosen model is marked."""
-    chosen = set() if selection is None else set(zip(selection["dataset"], selection["model"], strict=True))
+    key = ["dataset", "model", "preset"]
+    chosen = set() if selection is None else set(deployed(selection)[key].itertuples(index=False, name=None))
     rows = [
         [
             Cell(row.dataset),
             Cell(row.subset, marks.of(row.dataset, row.subset)),
-            Cell(models[row.model], (CHOSEN,) * (row.preset == TUNED and (row.dataset, row.model) in chosen)),
+            Cell(models[row.model], (CHOSEN,) * ((row.dataset, row.model, row.preset) in chosen)),
             Cell(row.preset),
             *map(number, (row.euclidean_mean_mm, row.euclidean_p95_mm, row.rmse_mm, row.mae_mm, row.r2)),
             *map(number, (row.mape_percent, row.fit_seconds, row.predict_us_per_row)),

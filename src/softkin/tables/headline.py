@@ -6,8 +6,14 @@ from collections.abc import Sequence
 
 import pandas as pd
 
-from softkin.interface import EXTRAPOLATION, TEST, TUNED
+from softkin.interface import EXTRAPOLATION, TEST
 from softkin.tables.paper_layout import format_number
+
+AIMS = {
+    "interpolation": "commands like those of train",
+    "extrapolation": "commands beyond those of train",
+    "both": "commands like those of train and beyond",
+}
 
 
 def headline(
@@ -21,19 +27,21 @@ def headline(
     wide = 2 + max(18, *map(len, intervals["dataset"]))
     lines = ["", "softkin: forward kinematics, mean error of a marker position (mm)", ""]
     if selected is not None:
-        lines.append(f"  {'dataset':<{wide}}{'model':<8}{'test':>10}{'95 %':>10}{'extrapolation':>16}")
+        lines.append(f"  {'dataset':<{wide}}{'model':<14}{'test':>10}{'95 %':>10}{'extrapolation':>16}")
         remarks: list[str] = []
-        tuned = point[point["preset"] == TUNED].set_index(["dataset", "model", "subset"])
+        scores = point.set_index(["dataset", "model", "preset", "subset"])
         for row in selected.itertuples():
-            test = tuned.loc[(row.dataset, row.model, TEST)]
-            outside = tuned.loc[(row.dataset, row.model, EXTRAPOLATION)]
+            test = scores.loc[(row.dataset, row.model, row.preset, TEST)]
+            outside = scores.loc[(row.dataset, row.model, row.preset, EXTRAPOLATION)]
             numbers = (test["euclidean_mean_mm"], test["euclidean_p95_mm"], outside["euclidean_mean_mm"])
             texts = [format_number(number) for number in numbers]
-            lines.append(f"  {row.dataset:<{wide}}{row.model:<8}{texts[0]:>10}{texts[1]:>10}{texts[2]:>16}")
+            model = f"{row.model} {row.preset}"
+            lines.append(f"  {row.dataset:<{wide}}{model:<14}{texts[0]:>10}{texts[1]:>10}{texts[2]:>16}")
             if numbers[0] > numbers[1]:
                 remarks.append(f"  {row.dataset}: a few gross misses set the mean, which exceeds the 95th percentile.")
         remarks += [f"  {dataset}: LEAK. Its test rows stand in train, see its data card." for dataset in leaking]
-        lines += ["", "  The model is chosen by cross-validation on `train` alone.", *remarks]
+        objective = selected["objective"].iloc[0]
+        lines += ["", f"  The model is chosen for {AIMS[objective]}, on `train` alone.", *remarks]
     lines += _how_sure(intervals, wide)
     lines += [f"  {sentence}" for sentence in sentences]
     lines += [

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from pathlib import Path
 from typing import Any
 
@@ -83,6 +84,7 @@ def results(table: Path, tmp_path: Path) -> DatasetResults:
         interval_metrics=tmp_path / "interval_metrics.csv",
         choice=tmp_path / "choice.csv",
         conditional=tmp_path / "conditional.csv",
+        outside=outside_scores(tmp_path / "outside.csv"),
         notes={"test": "made up"},
         model_titles={name: spec.title for name, spec in MODELS.items()},
         method_titles={name: method.title for name, method in INTERVAL_METHODS.items()},
@@ -104,6 +106,25 @@ def interval_scores(inside: Any, *, exact: bool) -> list[dict[str, Any]]:
     return rows
 
 
+def outside_scores(path: Path) -> Path:
+    """Of two runs: one method covers what it says, one refuses on extrapolation, one is infinite there."""
+    rows = []
+    for (model, preset), subset in itertools.product((("gb", "paper"), ("gp", "tuned")), ("test", "extrapolation")):
+        out = subset == "extrapolation"
+        key = {"model": model, "preset": preset, "subset": subset, "guarantee": "no guarantee"}
+        for name, labels, coverage, ratio, refused in (
+            ("scp_mapie", "none", 0.3 if out else 0.9, 4.0 if out else 1.1, ""),
+            ("oracle", "all", 0.9, 1.0, ""),
+            ("weighted", "none", np.nan if out else 0.9, np.nan if out else 1.0, "too few" if out else ""),
+            ("adaptive", "all, each after its interval", 0.9, np.inf if out else 1.2, ""),
+        ):
+            about = {"interval_method": name, "labels_used": labels, "coverage": coverage, "infinite_share": 0.0}
+            about |= {"winkler_ratio_to_oracle": ratio, "refused": refused}
+            rows += [key | about | {"confidence_level": level} for level in (0.8, 0.9)]
+    pd.DataFrame(rows).to_csv(path, index=False)
+    return path
+
+
 def trials(path: Path, n_complete: int) -> Path:
     """A study in which the rate decides all, the kind nothing, the depth is there half the time; every third pruned."""
     rng = np.random.default_rng(1)
@@ -111,7 +132,7 @@ def trials(path: Path, n_complete: int) -> Path:
     complete = np.arange(n) % 3 != 2
     rate = rng.uniform(0.1, 1.0, n)
     frame = pd.DataFrame({"trial": np.arange(n), "state": np.where(complete, "COMPLETE", "PRUNED")})
-    frame["cv_mae_mm"] = np.where(complete, 1.0 + 5.0 * rate, np.nan)
+    frame["score_mm"] = np.where(complete, 1.0 + 5.0 * rate, np.nan)
     frame["param_kind"] = rng.choice(["a", "b"], n)
     frame["param_depth"] = np.where(rng.random(n) < 0.5, np.nan, 3.0)
     frame["param_rate"] = rate

@@ -12,7 +12,8 @@ import pytest
 from PIL import Image
 
 from softkin.figures import CAMPAIGN_FIGURES, FIGURES
-from softkin.figures.drawing import draw
+from softkin.figures.drawing import DPI, draw
+from softkin.figures.style import PAGE
 from softkin.interface import DatasetResults
 
 
@@ -22,7 +23,7 @@ def test_every_figure_is_drawn_with_the_numbers_behind_it(results: DatasetResult
     assert set(index["figure"]) == set(FIGURES)
     for name in FIGURES:
         with Image.open(tmp_path / "figures" / f"{name}.png") as image:
-            assert image.width > 1000
+            assert 1000 < image.width <= PAGE * DPI  # wider, and its text is too small on a page
             assert len(set(image.convert("L").resize((64, 32)).tobytes())) > 8  # not a blank page
             edges = np.asarray(image.convert("L")).astype(int)
         # Nothing is cut off: the outermost pixels are white.

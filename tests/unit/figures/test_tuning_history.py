@@ -11,5 +11,5 @@ def test_the_best_so_far_never_gets_worse_and_pruned_trials_are_left_out(results
     assert rows.groupby("model", sort=False).size().to_dict() == {"gb": 20, "gp": 6}
     for _, study in rows.groupby("model"):
         assert study["best_mm"].is_monotonic_decreasing
-        assert study["best_mm"].iloc[-1] == study["cv_mae_mm"].min()
+        assert study["best_mm"].iloc[-1] == study["score_mm"].min()
         assert 2 not in set(study["trial"])

@@ -14,7 +14,7 @@ import pytest
 from PIL import Image
 
 from softkin.files import write_json
-from softkin.interface import PRESETS, SUBSETS
+from softkin.interface import PAPER, SUBSETS, TUNED
 from softkin.report.building import build_report
 from softkin.report.jobs import Job
 
@@ -44,6 +44,9 @@ class Results:
         report = self.folder / name
         build_report(**self.arguments | {"report": report} | changed)
         return report
+
+
+PRESETS = (PAPER, TUNED)
 
 
 def point_metrics() -> pd.DataFrame:
@@ -86,7 +89,7 @@ def frames() -> dict[str, pd.DataFrame]:
             for dataset, method in itertools.product(ROBOTS, ("cps", "scp_mapie"))
         ]
     )
-    selection = [{"dataset": d, "model": "gp", "cv_mae_mm": 1.0, "runner_up": "lr"} for d in ROBOTS]
+    selection = [{"dataset": d, "model": "gp", "preset": "tuned", "deployed": True, "runner_up": "lr"} for d in ROBOTS]
     cells = [
         {"dataset": "arm", "subset": subset, "model": "gb", "metric": metric, "printed": "1.40", "paper_value": 1.4}
         | {"tuned_value": 1.2, "paper_verdict": "reproduced", "tuned_verdict": "better"}
@@ -99,11 +102,19 @@ def frames() -> dict[str, pd.DataFrame]:
     ]
     intervals = {"dataset": "arm", "interval_method": "scp_mapie", "metric": "coverage", "printed": "0.90"}
     intervals |= {"honest_value": 0.5, "honest_verdict": "lower", "nearest_value": 0.9, "nearest_verdict": "reproduced"}
+    key = [{"dataset": d, "model": "gp", "preset": "tuned"} for d in ROBOTS]
+    searched = pd.DataFrame(key).assign(target_space="curvature", cv_mae_mm=1.0, shell_mae_mm=2.0, test_mae_mm=1.0)
+    searched = searched.assign(extrapolation_mae_mm=2.5, cv_rank_correlation=0.25, shell_rank_correlation=0.75)
+    outside = pd.DataFrame([k | {"subset": s} for k in key for s in ("test", "extrapolation")])
+    outside = outside.assign(interval_method="cps", confidence_level=0.9, coverage=0.91, mean_width_mm=2.0)
+    outside = outside.assign(winkler_mm=3.0, winkler_ratio_to_oracle=1.25, guarantee="no guarantee", labels_used="none")
     return {
         "point_metrics": point_metrics(),
+        "searched_runs": searched,
+        "extrapolation_intervals": outside.assign(refused=["", "too few rows"] * len(ROBOTS)),
         "interval_metrics": interval_metrics(),
         "interval_choice": choice,
-        "selection": pd.DataFrame(selection).assign(runner_up_cv_mae_mm=1.25),
+        "selection": pd.DataFrame(selection).assign(runner_up_ratio=1.25),
         "published_comparison": pd.DataFrame(cells),
         "published_columns": pd.DataFrame(columns),
         "published_intervals": pd.DataFrame([intervals | {"explanation": "A remark, long enough."}]),
@@ -165,7 +176,7 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Results:
         "figures": {dataset: folder / dataset / "figures" for dataset in ROBOTS},
         "campaign_figures": folder / "tables" / "figures",
         "jobs": [
-            Job("tune", "arm", "gp", "tuned", benchmark, record),
+            Job("tune", "arm", "gp", "tuned", benchmark, (record,)),
             Job("intervals", "arm", "", "", benchmark),
         ],
         "config": config | {"data_mirror": "/private/place"},

@@ -74,15 +74,29 @@ def test_the_headline_names_model_error_and_interval(page: Path) -> None:
     assert "System around Gaussian process, tuned" in card[0]
 
 
+#: The tables of what holds outside train.
+OUTSIDE = ("searched", "outside")
+
+
 def test_leaks_cuts_and_stand_ins_stand_wherever_their_numbers_do(page: Path) -> None:
     text = page.read_text(encoding="utf-8")
     grids = dict(re.findall(r'data-grid id="([\w-]+)-table">(.*?)</table>', text, re.DOTALL))
-    assert set(grids) == {"data", "points", "choice", "intervals", "best", "cells", "published-intervals", "slowest"}
+    assert set(grids) == {
+        "data",
+        "points",
+        "choice",
+        "intervals",
+        "best",
+        "cells",
+        "published-intervals",
+        "slowest",
+        *OUTSIDE,
+    }
     for name in set(grids) - {"slowest"}:
         rows = re.findall(r"<tr><td>(.*?)\n", grids[name])
         assert rows, name
         for row in rows:
-            is_test = "<td>test" in row or name in ("data", "choice", "published-intervals")
+            is_test = "<td>test" in row or name in ("data", "choice", "published-intervals", "searched")
             assert ('class="badge leak"' in row) == (row.startswith("arm") and is_test), (name, row)
             for badge in ("rows-left-out", "stand-in"):
                 assert (f'class="badge {badge}"' in row) == row.startswith("finger"), (name, row)
@@ -100,7 +114,7 @@ def test_without_a_data_card_a_note_is_a_caution(results: Results) -> None:
 def test_untuned_and_uncompared_results_make_a_page_too(results: Results, tmp_path: Path) -> None:
     tables = []
     for path in results.arguments["tables"]:
-        if path.stem in ("selection", "published_columns"):
+        if path.stem in ("selection", "searched_runs", "published_columns"):
             continue
         tables.append(tmp_path / path.name)
         frame = pd.read_csv(path)

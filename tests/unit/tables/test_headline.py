@@ -22,13 +22,14 @@ SURE = pd.DataFrame(
         for method, width in (("scp_spread", 2.5), ("cqr", 7.0))
     ]
 )
-CHOSEN = pd.DataFrame([{"dataset": "arm", "model": "gp"}])
+CHOSEN = pd.DataFrame([{"dataset": "arm", "model": "gp", "preset": "tuned", "objective": "both"}])
 
 
 def test_the_chosen_model_and_its_errors() -> None:
     text = headline(CHOSEN, scores(0.5, 1.25), SURE, ["tuned preset: 3 of 4"])
-    assert "arm gp 0.500 1.25 1.50" in " ".join(text.split())
+    assert "arm gp tuned 0.500 1.25 1.50" in " ".join(text.split())
     assert "tuned preset: 3 of 4" in text
+    assert "chosen for commands like those of train and beyond, on `train` alone" in text
     assert "gross misses" not in text
     assert max(map(len, text.splitlines())) <= 90
 
@@ -39,7 +40,7 @@ def test_a_mean_set_by_a_few_rows_is_remarked_upon() -> None:
 
 def test_without_tuning_there_is_no_choice_to_show() -> None:
     text = headline(None, scores(1.0, 2.0), SURE, [])
-    assert "chosen by cross-validation" not in text
+    assert "The model is chosen" not in text
 
 
 def test_the_chosen_interval_and_what_it_covers() -> None:
