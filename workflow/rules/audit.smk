@@ -4,7 +4,14 @@ rule audit:
     input:
         table="results/{dataset}/table.parquet",
         description="results/{dataset}/dataset.json",
-        code=package("findings.py", "rows.py", "smooth_fit.py", "datasets/table.py"),
+        code=package(
+            "findings.py",
+            "rows.py",
+            "smooth_fit.py",
+            "target_spaces/base_frame.py",
+            "target_spaces/constant_curvature.py",
+            "datasets/table.py",
+        ),
         checks=sorted((PACKAGE / "auditing").glob("*.py")),
     output:
         data_card="results/{dataset}/data_card.json",

@@ -14,4 +14,5 @@ with job(snakemake.log[0], f"audit {dataset}"):
         data_card=snakemake.output.data_card,
         readable=snakemake.output.readable,
         removed=read_json(snakemake.input.description)["removed_from_train"],
+        base=snakemake.params.source.get("base"),
     )

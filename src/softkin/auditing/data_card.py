@@ -7,12 +7,23 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from softkin.auditing import CHECKS
 from softkin.auditing.page import page
 from softkin.datasets.table import read_subset
 from softkin.files import write_json, write_text
 from softkin.findings import LEAK, worst_severity
-from softkin.interface import SUBSETS, Array, Samples, command_columns, coordinate_columns
+from softkin.interface import (
+    CONSTANT_RANGE_MM,
+    SUBSETS,
+    TRAIN,
+    Array,
+    Samples,
+    command_columns,
+    coordinate_columns,
+)
+from softkin.target_spaces.base_frame import base_frame
 
 logger = logging.getLogger("softkin")
 
@@ -26,11 +37,12 @@ def audit(
     data_card: str | Path,
     readable: str | Path,
     removed: Mapping[str, int] | None = None,
+    base: Mapping[str, Any] | None = None,
 ) -> None:
     """Run every check on `table` (Parquet, mm) and write `data_card` (JSON) and `readable` (Markdown).
 
     `position_unit` is the unit of the dataset's own file, told in the card; `removed` counts the rows that `cleaned`
-    took from train before, None where it was not asked to.
+    took from train before, None where it was not asked to; `base` is what the entry declares of the robot's base.
 
     Raises:
         SoftkinError: a subset has no rows.
@@ -48,6 +60,7 @@ def audit(
         "unit_in_file": position_unit,
         "subsets": {subset: _description(rows) for subset, rows in samples.items()},
         "removed_from_train": None if removed is None else dict(removed),
+        "base": _base(samples[TRAIN], base or {}),
         "checks": {name: dict(result.numbers) for name, result in results.items()},
     }
     write_json(data_card, card)
@@ -64,6 +77,23 @@ def _description(rows: Samples) -> dict[str, Any]:
         "rows": len(rows),
         "commands": _ranges(command_columns(rows.commands.shape[1]), rows.commands),
         "positions_mm": _ranges(coordinate_columns(rows.positions.shape[1] // 3), rows.positions),
+    }
+
+
+def _base(train: Samples, declared: Mapping[str, Any]) -> dict[str, Any]:
+    """Where the base stands, which curvature coordinates start from: by the entry where it says that, else by `train`."""
+    points = train.positions.reshape(len(train), -1, 3)
+    still = np.ptp(points, axis=0).max(axis=1) <= CONSTANT_RANGE_MM
+    if still.all():
+        return {"not_measured": "no marker moves"}
+    frame = base_frame(train.commands, points, declared)
+    known = [value is not None for value in declared.get("origin") or [None] * 3]
+    rest = "a marker that never moves" if still.any() and not any(known) else "estimated"
+    return {
+        "origin_mm": frame.origin.tolist(),
+        "origin_from": ["declared" if is_known else rest for is_known in known],
+        "axis": frame.axis.tolist(),
+        "axis_from": "declared" if declared.get("axis") else "estimated",
     }
 
 

@@ -34,6 +34,8 @@ def page(card: Mapping[str, Any]) -> str:
         "## Ranges",
         f"Commands in the file's own unit, positions in mm (the file has {card['unit_in_file']}).",
         _ranges(card["subsets"]),
+        "## Where the base stands",
+        _base(card["base"]),
         "## How near the other subsets come to train",
         _nearness(checks["near_copies"]),
         "## How far they lie from train",
@@ -87,6 +89,20 @@ def _ranges(subsets: Mapping[str, Any]) -> str:
     ]
     left = len(columns) - len(rows)
     return _table(["column", *SUBSETS], rows) + (f"\n\n{left} more columns are in the JSON file." if left else "")
+
+
+def _base(base: Mapping[str, Any]) -> str:
+    if "not_measured" in base:
+        return f"Not measured: {base['not_measured']}."
+    origin = ", ".join(
+        f"{name} {value:.4g} ({how})"
+        for name, value, how in zip("xyz", base["origin_mm"], base["origin_from"], strict=True)
+    )
+    axis = ", ".join(f"{value:.4g}" for value in base["axis"])
+    return (
+        f"At {origin} mm; the straight robot leaves it along ({axis}), {base['axis_from']}. Arcs from there to the "
+        "markers are what a model in curvature coordinates is fitted to; `base` in the dataset's entry declares it."
+    )
 
 
 def _nearness(near: Mapping[str, Any]) -> str:

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ from softkin.auditing.data_card import audit
 from softkin.datasets.table import to_table, write_table
 from softkin.files import read_json
 from softkin.interface import SUBSETS, Samples
+from tests.conftest import bending_arm
 from tests.unit.auditing.clean_robot import clean_robot
 from tests.unit.auditing.conftest import Replace
 
@@ -69,3 +71,29 @@ def test_a_single_row_each_gets_a_card_too(tmp_path: Path) -> None:
     codes = {finding["code"] for finding in card["findings"]}
     assert codes == {"constant_coordinates", "constant_commands"}
     assert "Not measured: no coordinate moves" in readable
+    assert card["base"] == {"not_measured": "no marker moves"}
+    assert "Not measured: no marker moves." in readable
+
+
+def test_the_card_says_where_the_base_stands_and_who_says_so(tmp_path: Path) -> None:
+    shift = np.array([10.0, 20.0, 30.0])
+    arms = {}
+    for n in (1, 3):
+        rows = {subset: bending_arm(200, n_markers=n, seed=place) for place, subset in enumerate(SUBSETS)}
+        arms[n] = {subset: replace(of, positions=of.positions + np.tile(shift, n)) for subset, of in rows.items()}
+    whole = audited(arms[1], tmp_path, base={"origin": [10.0, 20.0, 30.0], "axis": [0, 0, 2]})
+    assert whole[0]["base"] == {
+        "origin_mm": [10.0, 20.0, 30.0],
+        "origin_from": ["declared"] * 3,
+        "axis": [0.0, 0.0, 1.0],
+        "axis_from": "declared",
+    }
+    assert "x 10 (declared), y 20 (declared), z 30 (declared) mm" in whole[1]
+    depth = audited(arms[1], tmp_path, base={"origin": [10.0, 20.0, None]})[0]["base"]
+    assert depth["origin_from"] == ["declared", "declared", "estimated"]
+    assert depth["origin_mm"][2] == pytest.approx(30.0, abs=3.0)
+    np.testing.assert_allclose(depth["axis"], [0, 0, 1], atol=0.02)
+    resting = audited(arms[3], tmp_path)[0]["base"]
+    assert resting["origin_from"] == ["a marker that never moves"] * 3
+    assert resting["origin_mm"] == pytest.approx([10.0, 20.0, 30.0])
+    assert resting["axis_from"] == "estimated"
