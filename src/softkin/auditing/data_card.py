@@ -81,7 +81,7 @@ def _description(rows: Samples) -> dict[str, Any]:
 
 
 def _base(train: Samples, declared: Mapping[str, Any]) -> dict[str, Any]:
-    """Where the base stands, which curvature coordinates start from: by the entry where it says that, else by `train`."""
+    """Where the base stands, the start of curvature coordinates: by the entry, and by `train` where that is silent."""
     points = train.positions.reshape(len(train), -1, 3)
     still = np.ptp(points, axis=0).max(axis=1) <= CONSTANT_RANGE_MM
     if still.all():

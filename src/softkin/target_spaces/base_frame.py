@@ -89,7 +89,7 @@ def _telling_rows(commands: Array, points: Array) -> Indices:
 def _estimated(commands: Array, points: Array, origin: Array, axis: Array | None) -> BaseFrame:
     """`origin` is NaN where it is to be estimated, `axis` None."""
     terms = np.column_stack([np.ones(len(commands)), StandardScaler().fit_transform(commands)])
-    project = terms @ np.linalg.pinv(terms)
+    solve = np.linalg.pinv(terms)
     flat = points.reshape(-1, 3)
     # A planar robot's base lies in its plane.
     spread_out = np.ptp(flat, axis=0) > CONSTANT_RANGE_MM
@@ -108,7 +108,7 @@ def _estimated(commands: Array, points: Array, origin: Array, axis: Array | None
 
     def residuals(values: Array, start: BaseFrame) -> Array:
         frame = moved(start, values)
-        fitted = np.tensordot(project, to_arcs(frame.to_base(points)), axes=(1, 0))
+        fitted = (terms @ (solve @ to_arcs(frame.to_base(points)).reshape(len(points), -1))).reshape(points.shape)
         return np.asarray((frame.from_base(from_arcs(fitted)) - points).ravel() / (TYPICAL_RESIDUAL * reach))
 
     nothing = np.zeros(moves.sum() + (len(within) - 1 if axis is None else 0))
