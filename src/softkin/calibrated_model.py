@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import joblib
 import numpy as np
-import pandas as pd
+from numpy.typing import NDArray
 
+from softkin.choosing_intervals import deployed_choice
 from softkin.conformal import conformal_limit, error_scale, joint_scores, p_values
 from softkin.datasets.table import read_subset
+from softkin.evidence import norm_of, read_archive, shells_of
 from softkin.files import replacing
 from softkin.fitting import spread_of
 from softkin.interface import (
+    AUTO,
     TRAIN,
     VALIDATION,
     Array,
@@ -23,9 +26,13 @@ from softkin.interface import (
     IntervalMethod,
     ModelSpec,
     Samples,
+    Shell,
+    ShellEvidence,
     SoftkinError,
     informative_coordinates,
 )
+from softkin.intervals import inside_and_outside
+from softkin.shells import command_norm
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +40,8 @@ class CalibratedModel:
     """Positions, intervals, regions and p-values at any commands (n_rows, n_commands), in mm.
 
     `joblib.load("results/finger/calibrated_model.joblib")` gives one. What it promises holds for commands like those
-    it was calibrated with; outside the range of `train` nothing is promised.
+    it was calibrated with; outside the range of `train` nothing is promised, and where the model was fitted on cores of
+    `train` too (`shells`), intervals there are made from what it got wrong around them.
     """
 
     dataset: str
@@ -46,19 +54,35 @@ class CalibratedModel:
     known: Evidence
     #: Typical error (n_moving,) of each moving coordinate on `train`, mm.
     scale: Array
+    #: The same model fitted on cores of `train`; none: intervals outside are as those inside.
+    shells: Sequence[Shell] = ()
+    #: How far out commands lie.
+    norm: Callable[[Array], Array] | None = None
 
     def predict(self, commands: Array) -> Array:
         """Predicted positions (n_rows, n_coordinates)."""
         return np.asarray(self.estimator.predict(self._checked(commands)))
 
     def intervals(self, commands: Array, confidence_levels: Sequence[float]) -> Array:
-        """Intervals (n_levels, n_rows, n_coordinates, 2) of each coordinate by the chosen method; levels ascending."""
+        """Intervals (n_levels, n_rows, n_coordinates, 2) of each coordinate; levels ascending. By the chosen method
+        inside the training region, and outside it never narrower than that.
+        """
         commands = self._checked(commands)
         spreads = {}
         if self.known.calibration_spread is not None:
             spreads["new_spread"] = spread_of(self.spec, self.estimator, self.train, commands)
         evidence = replace(self.known, new=self.predict(commands), new_commands=commands, **spreads)
-        return self.method.intervals(evidence, confidence_levels)
+        bounds = self.method.intervals(evidence, confidence_levels)
+        if self.norm is None:
+            return bounds
+        return inside_and_outside.intervals(ShellEvidence(evidence, self.shells, self.norm, bounds), confidence_levels)
+
+    def is_outside(self, commands: Array) -> NDArray[np.bool_]:
+        """Which commands (n_rows,) lie outside the training region, where nothing is promised."""
+        commands = self._checked(commands)
+        norm = self.norm or command_norm(self.train.commands, standardised=True).of
+        known = replace(self.known, new_commands=commands)
+        return inside_and_outside.outside(ShellEvidence(known, self.shells, norm))
 
     def box(self, confidence_level: float) -> Array:
         """Half-widths (n_coordinates,) in mm of a box around a predicted pose that holds all moving coordinates at
@@ -110,6 +134,8 @@ def calibrated(
     estimator: Any,
     train: Samples,
     validation: Samples,
+    shells: Sequence[Shell] = (),
+    norm: Callable[[Array], Array] | None = None,
 ) -> CalibratedModel:
     """A fitted `estimator` with all that never changes worked out: what it says of `train` and of `validation`."""
     spreads = {}
@@ -127,7 +153,7 @@ def calibrated(
     )
     errors = np.abs(train.positions - estimator.predict(train.commands))
     scale = error_scale(errors[:, informative_coordinates(train.positions)])
-    return CalibratedModel(dataset, spec, preset, method, estimator, train, known, scale)
+    return CalibratedModel(dataset, spec, preset, method, estimator, train, known, scale, shells, norm)
 
 
 def bundle(
@@ -138,30 +164,32 @@ def bundle(
     specs: Mapping[str, ModelSpec],
     methods: Mapping[str, IntervalMethod],
     models: Mapping[tuple[str, str], str | Path],
+    shells: str | Path | None,
     output: str | Path,
 ) -> None:
-    """Write the calibrated model (joblib): the first choice that is calibrated around one of `models`.
+    """Write the calibrated model (joblib): what the `choice` deploys, around one of `models`.
 
-    `models` is (model, preset) -> fitted model. A method on quantiles has a learner of its own and no point
-    prediction, so the next best is taken.
+    `models` is (model, preset) -> fitted model, `shells` the file of `refit_shells`, if there is one.
     """
-    ranked = pd.read_csv(choice)
-    around = [
-        row for row in ranked.to_dict("records") if methods[row["interval_method"]].on in ("predictions", "spreads")
-    ]
-    if not around:
+    best = deployed_choice(choice)
+    if best is None:
         raise SoftkinError(
             f"{dataset}: no configured method puts an interval around a model; mend: add scp_mapie to interval_methods"
         )
-    best = around[0]
+    run, train = (best["model"], best["preset"]), read_subset(table, TRAIN)
+    beyond: dict[str, Any] = {}
+    if best["outside"] == AUTO:
+        archive = read_archive(shells)
+        beyond = {"shells": shells_of(archive, train)[run], "norm": norm_of(archive)}
     robot = calibrated(
         dataset,
-        specs[best["model"]],
-        best["preset"],
+        specs[run[0]],
+        run[1],
         methods[best["interval_method"]],
-        joblib.load(models[best["model"], best["preset"]]),
-        read_subset(table, TRAIN),
+        joblib.load(models[run]),
+        train,
         read_subset(table, VALIDATION),
+        **beyond,
     )
     with replacing(output) as temporary:
         joblib.dump(robot, temporary, compress=3)

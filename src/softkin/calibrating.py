@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import pandas as pd
 
 from softkin.bounds import bounds_frame
-from softkin.evidence import Evidences
+from softkin.evidence import Evidences, Run
 from softkin.files import replacing
-from softkin.interface import IntervalMethod
+from softkin.interface import IntervalMethod, ShellEvidence
 
 logger = logging.getLogger("softkin")
 
@@ -19,16 +20,26 @@ KEY = ["model", "preset", "subset", "confidence_level"]
 
 
 def calibrate(
-    evidences: Evidences, *, methods: Mapping[str, IntervalMethod], intervals: Mapping[str, str | Path]
+    evidences: Evidences,
+    *,
+    methods: Mapping[str, IntervalMethod],
+    inside: Mapping[Run, IntervalMethod],
+    intervals: Mapping[str, str | Path],
 ) -> None:
     """Write the `intervals` of each method (Parquet: model, preset, subset, confidence_level, lower_m1_x..,
-    upper_m1_x.. in mm).
+    upper_m1_x.. in mm). `inside` says what a run is given inside the training region, where a method differs outside.
     """
+    calibrated = {
+        run: method.intervals(dict(evidences.of(method.on))[run], evidences.levels) for run, method in inside.items()
+    }
     for place, (name, method) in enumerate(methods.items()):
         frames = []
         n_models = 0
-        for (model, preset), evidence in evidences.of(method.on):
+        for run, evidence in evidences.of(method.on):
+            model, preset = run
             n_models += 1
+            if isinstance(evidence, ShellEvidence) and run in calibrated:
+                evidence = replace(evidence, inside=calibrated[run])
             bounds = method.intervals(evidence, evidences.levels)
             for subset, mine in evidences.by_subset(bounds, axis=1).items():
                 for level, of_level in zip(evidences.levels, mine, strict=True):

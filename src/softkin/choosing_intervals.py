@@ -16,6 +16,7 @@ from sklearn.model_selection import KFold
 from softkin.evidence import Evidences, Run
 from softkin.files import replacing
 from softkin.interface import (
+    AUTO,
     MARGINAL,
     OUTER,
     PAPERS_LEVEL,
@@ -62,15 +63,28 @@ def shown_runs(choice: str | Path) -> set[Run]:
     return {PAPERS_RUN, *zip(candidates["model"], candidates["preset"], strict=True)}
 
 
+def deployed_choice(choice: str | Path) -> pd.Series | None:
+    """The row of a `choice` that the calibrated model has; None where every candidate has a learner of its own."""
+    candidates = pd.read_csv(choice)
+    around_model = candidates[candidates["deployed"]]
+    return None if around_model.empty else around_model.iloc[0]
+
+
 def choose(
     evidences: Evidences,
     *,
     methods: Mapping[str, IntervalMethod],
     runs: Collection[Run],
     seed: int,
+    regime: str,
     choice: str | Path,
 ) -> None:
-    """Write the `choice` (CSV: model, preset, interval_method, confidence_level, cv_winkler_mm, chosen), best first.
+    """Write the `choice` (CSV: model, preset, interval_method, confidence_level, cv_winkler_mm, chosen, deployed,
+    outside), best first.
+
+    The best is `chosen`; `deployed` is the best around the prediction of a model, which the calibrated model has: a
+    method on quantiles has a learner of its own. `outside` names the method that gives its intervals outside the
+    training region: by the `regime` `auto` that of this name, where there are shells of this run, else the same.
 
     Candidates are the methods with a marginal guarantee around one of `runs`, and those on quantiles. Each is
     calibrated on four fifths of `validation` and scored on the rest, five times over: the mean Winkler score over
@@ -102,9 +116,17 @@ def choose(
         )
     frame = pd.DataFrame(rows).sort_values("cv_winkler_mm", kind="stable", ignore_index=True)
     frame["chosen"] = frame.index == 0
+    around_model = frame["interval_method"].map(lambda name: methods[name].on != "quantiles")
+    frame["deployed"] = around_model & ~around_model.shift(fill_value=False).cummax()
+    shells = {run for run, _ in evidences.of("shells")} if regime == AUTO and AUTO in methods else set()
+    has_shells = np.array([run in shells for run in zip(frame["model"], frame["preset"], strict=True)])
+    goes_on = frame["deployed"] & has_shells
+    frame["outside"] = frame["interval_method"].mask(goes_on, AUTO)
     with replacing(choice) as temporary:
         frame.to_csv(temporary, index=False)
     best = frame.iloc[0]
+    if regime == AUTO and not goes_on.any():
+        logger.warning("outside the training region intervals are as inside: no method `%s`, or no shells", AUTO)
     logger.info("chosen: %s around %s %s", methods[best["interval_method"]].title, best["model"], best["preset"])
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +19,7 @@ from softkin.interface import (
     Array,
     Evidence,
     RefitEvidence,
+    Samples,
     Shell,
     ShellEvidence,
 )
@@ -54,7 +55,7 @@ class Evidences:
         self.levels = list(confidence_levels)
         self.predictions = {run: pd.read_parquet(path) for run, path in predictions.items()}
         self.quantiles = {run: pd.read_parquet(path) for run, path in quantiles.items()}
-        self.refits, self.shells = _archive(refits), _archive(shells)
+        self.refits, self.shells = read_archive(refits), read_archive(shells)
 
     def of(self, on: str) -> Iterator[tuple[Run, Evidence | RefitEvidence | ShellEvidence]]:
         """(model, preset) and evidence of every run that a method on `on` can be put around."""
@@ -103,19 +104,8 @@ class Evidences:
         )
 
     def _on_shells(self) -> Iterator[tuple[Run, ShellEvidence]]:
-        found: dict[Run, list[Shell]] = {}
-        for name, predicted in self.shells.items():
-            if name.count("/") != 2:  # what all runs share
-                continue
-            model, preset, place = name.split("/")
-            core, shell = (self.shells[f"{part}_{place}"] for part in ("core", "shell"))
-            commands, truth = self.train.commands, self.train.positions
-            found.setdefault((model, preset), []).append(
-                Shell(commands[core], commands[shell], predicted, truth[shell])
-            )
-        for run, shells in found.items():
-            norm = CommandNorm(self.shells["centre"], self.shells["scale"])
-            yield run, ShellEvidence(self._predicted(self.predictions[run], ""), shells, norm.of)
+        for run, shells in shells_of(self.shells, self.train).items():
+            yield run, ShellEvidence(self._predicted(self.predictions[run], ""), shells, norm_of(self.shells))
 
     def _refitted(self, kind: str) -> Iterator[tuple[Run, RefitEvidence]]:
         n = len(self.train)
@@ -136,7 +126,26 @@ class Evidences:
             )
 
 
-def _archive(path: str | Path | None) -> dict[str, Array]:
+def shells_of(archive: Mapping[str, Array], train: Samples) -> dict[Run, list[Shell]]:
+    """The shells of each run in an archive of `refit_shells`, the smallest core first."""
+    found: dict[Run, list[Shell]] = {}
+    for name, predicted in archive.items():
+        if name.count("/") != 2:  # what all runs share
+            continue
+        model, preset, place = name.split("/")
+        core, shell = (archive[f"{part}_{place}"] for part in ("core", "shell"))
+        commands, truth = train.commands, train.positions
+        found.setdefault((model, preset), []).append(Shell(commands[core], commands[shell], predicted, truth[shell]))
+    return found
+
+
+def norm_of(archive: Mapping[str, Array]) -> Callable[[Array], Array]:
+    """How far out commands (n_rows, n_commands) lie (n_rows,), by an archive of `refit_shells`."""
+    return CommandNorm(archive["centre"], archive["scale"]).of
+
+
+def read_archive(path: str | Path | None) -> dict[str, Array]:
+    """The arrays of a file of `refit` or `refit_shells`; none where there is no file."""
     if path is None:
         return {}
     with np.load(path) as archive:

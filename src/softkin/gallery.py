@@ -73,11 +73,12 @@ def robots_table(results: Path) -> PaperTable:
                 *map(format_number, errors),
                 format_number(interval["test_mean_width_mm"]),
                 f"{interval['test_coverage']:.1%}",
+                f"{interval['extrapolation_coverage']:.1%}",
             ]
         )
     level = f"{choice['confidence_level'].iloc[0]:.0%}"
     header = ["Robot", "Chosen model", "Mean error of a marker, test (mm)", "95 % below (mm)", "Extrapolation (mm)"]
-    header += [f"Width of its {level} intervals (mm)", "They cover"]
+    header += [f"Width of its {level} intervals (mm)", "They cover, test", "Extrapolation"]
     return PaperTable("What a run ends with", header, rows, set(), [("", len(rows))])
 
 

@@ -170,18 +170,24 @@ class Shell:
 class ShellEvidence:
     """What a method for commands outside `train` sees: the `deployed` model, fitted on all of `train`, and the same
     model fitted on its cores, the smallest first. `norm` takes commands (n_rows, n_commands) to how far out they lie
-    (n_rows,).
+    (n_rows,). `inside` (n_levels, n_rows, n_coordinates, 2) are the bounds that new rows get inside the training
+    region; None: those of split conformal prediction.
     """
 
     deployed: Evidence
     shells: Sequence[Shell]
     norm: Callable[[Array], Array]
+    inside: Array | None = None
 
     @property
     def truth(self) -> Array:
         """That of the deployed model's calibration rows."""
         return self.deployed.truth
 
+
+#: What the calibrated model of a robot gives outside the training region: the intervals of the method of that name,
+#: or the same as inside.
+AUTO, INSIDE = REGIMES = ("auto", "inside")
 
 #: What an interval promises of a new row exchangeable with those it was calibrated on, coordinate by coordinate.
 MARGINAL, WEAK, NO_GUARANTEE = GUARANTEES = ("marginal", "marginal at 1 - 2 alpha", "no guarantee")

@@ -11,7 +11,7 @@ import pytest
 from softkin.calibrated_model import CalibratedModel, bundle
 from softkin.datasets.table import to_table, write_table
 from softkin.fitting import fit_quietly, kinematic_model
-from softkin.interface import SUBSETS, SoftkinError
+from softkin.interface import SUBSETS, Samples, SoftkinError
 from softkin.intervals import INTERVAL_METHODS
 from softkin.models import MODELS
 from tests.conftest import bending_arm
@@ -27,12 +27,24 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> Path:
     estimator = kinematic_model(MODELS["gp"], PARAMS, skip_constant=True, seed=0, threads=1)
     fit_quietly(estimator, subsets["train"], 1)
     joblib.dump(estimator, folder / "model.joblib")
+    train = subsets["train"]
+    norms, shells = np.linalg.norm(train.commands, axis=1), {"centre": np.zeros(2), "scale": np.ones(2)}
+    for place, share in enumerate((0.5, 0.7)):
+        core = norms <= np.quantile(norms, share)
+        small = kinematic_model(MODELS["gp"], PARAMS, skip_constant=True, seed=0, threads=1)
+        fit_quietly(small, Samples(train.commands[core], train.positions[core]), 1)
+        shells |= {f"core_{place}": np.flatnonzero(core), f"shell_{place}": np.flatnonzero(~core)}
+        shells[f"gp/tuned/{place}"] = small.predict(train.commands[~core])
+    np.savez(folder / "shells.npz", **shells)  # type: ignore[arg-type]
     return folder
 
 
-def bundled(files: Path, *methods: str) -> CalibratedModel:
+def bundled(files: Path, *methods: str, outside: str = "") -> CalibratedModel:
+    """What is deployed is the first method around a model; `outside` takes over beyond the training region."""
     rows = [{"model": "gp", "preset": "tuned", "interval_method": method} for method in methods]
-    pd.DataFrame(rows).to_csv(files / "choice.csv", index=False)
+    around = [method for method in methods if INTERVAL_METHODS[method].on != "quantiles"]
+    choice = pd.DataFrame(rows).assign(deployed=[method in around[:1] for method in methods])
+    choice.assign(outside=outside or choice["interval_method"]).to_csv(files / "choice.csv", index=False)
     bundle(
         files / "table.parquet",
         dataset="arm",
@@ -40,6 +52,7 @@ def bundled(files: Path, *methods: str) -> CalibratedModel:
         specs=MODELS,
         methods=INTERVAL_METHODS,
         models={("gp", "tuned"): files / "model.joblib"},
+        shells=files / "shells.npz",
         output=files / "calibrated.joblib",
     )
     stored = joblib.load(files / "calibrated.joblib")
@@ -57,6 +70,24 @@ def test_it_covers_new_rows(files: Path, method: str) -> None:
     assert inside[:, :, :3].all()  # the base, which never moves
     one = robot.intervals(new.commands[0], [0.8])
     np.testing.assert_allclose(one[0, 0], bounds[0, 0])
+
+
+def test_one_interval_for_everywhere(files: Path) -> None:
+    """Inside it is the chosen method's, outside never narrower, and wide enough where that of inside is not."""
+    plain, robot = bundled(files, "scp_spread"), bundled(files, "scp_spread", outside="auto")
+    far = bending_arm(400, n_markers=2, seed=9, reach=1.6)
+    out = robot.is_outside(far.commands)
+    assert 100 < out.sum() < 350
+    assert out[np.linalg.norm(far.commands, axis=1) > np.sqrt(2)].all()
+    narrow, wide = (one.intervals(far.commands, [0.8, 0.9]) for one in (plain, robot))
+    np.testing.assert_array_equal(narrow[:, ~out], wide[:, ~out])
+    assert (wide[..., 0] <= narrow[..., 0]).all()
+    assert (wide[..., 1] >= narrow[..., 1]).all()
+    covers = [
+        ((b[1, ..., 0] <= far.positions) & (far.positions <= b[1, ..., 1]))[out, 3:].mean() for b in (narrow, wide)
+    ]
+    assert covers[1] > max(0.86, covers[0] + 0.03)
+    np.testing.assert_array_equal(plain.is_outside(bending_arm(50, seed=3).commands * 0.3), False)
 
 
 def test_false_alarms_are_rare_and_a_robot_elsewhere_is_noticed(files: Path) -> None:

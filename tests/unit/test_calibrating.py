@@ -68,7 +68,8 @@ def stored(table: Path, tmp_path: Path) -> Path:
 
 
 def run(table: Path, folder: Path, method: str, output: Path) -> pd.DataFrame:
-    calibrate(evidences_of(table, folder), methods={method: INTERVAL_METHODS[method]}, intervals={method: output})
+    methods = {method: INTERVAL_METHODS[method]}
+    calibrate(evidences_of(table, folder), methods=methods, inside={}, intervals={method: output})
     return pd.read_parquet(output)
 
 
@@ -88,6 +89,27 @@ def test_a_known_residual_sets_the_width(table: Path, stored: Path) -> None:
     width = frame["upper_m1_x"] - frame["lower_m1_x"]
     assert width.to_numpy() == pytest.approx(2.0)
     assert (frame["upper_m1_y"] - frame["lower_m1_y"]).to_numpy() == pytest.approx(0.0)
+
+
+def test_the_deployed_run_has_its_own_method_inside(table: Path, stored: Path) -> None:
+    """Here the interval of a model sure to 2 mm, far wider than split conformal prediction's."""
+    wide = INTERVAL_METHODS["gaussian"]
+    output = stored / "out.parquet"
+    frames = []
+    for inside in ({}, {RUN: wide}):
+        calibrate(
+            evidences_of(table, stored),
+            methods={"auto": INTERVAL_METHODS["auto"]},
+            inside=inside,
+            intervals={"auto": output},
+        )
+        frames.append(pd.read_parquet(output))
+    split, own, gaussian = *frames, run(table, stored, "gaussian", output)
+    width = [(frame["upper_m1_y"] - frame["lower_m1_y"])[frame["subset"] == "test"] for frame in (split, own, gaussian)]
+    inside = width[0] < 1e-9
+    assert inside.sum() > 20
+    np.testing.assert_allclose(width[1][inside], width[2][inside])
+    assert (width[1] >= np.maximum(width[0], width[2]) - 1e-9).all()
 
 
 def test_a_model_without_a_spread_is_left_out_where_one_is_needed(table: Path, stored: Path) -> None:

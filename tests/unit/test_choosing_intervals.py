@@ -6,7 +6,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from softkin.choosing_intervals import choose, parts, run_of_choice, shown_runs
+from softkin.bounds import bounds_frame
+from softkin.choosing_intervals import choose, deployed_choice, parts, run_of_choice, shown_runs
 from softkin.datasets.table import read_subset, to_table, write_table
 from softkin.evidence import Evidences
 from softkin.files import write_json
@@ -20,7 +21,8 @@ def test_the_run_is_the_one_of_lowest_score_by_the_objective(tmp_path: Path) -> 
     files = {}
     for model, scores in {"lr": (0.5, 1.0), "gp": (0.1, 9.0), "svr": (0.1, 9.0)}.items():
         files[model, "tuned"] = tmp_path / f"{model}.json"
-        write_json(files[model, "tuned"], dict(zip(("cv_mae_mm", "shell_mae_mm"), scores, strict=True)))
+        found = dict(zip(("cv_mae_mm", "shell_mae_mm"), scores, strict=True))
+        write_json(files[model, "tuned"], found | {"target_space": "cartesian"})
     assert run_of_choice(files, "interpolation") == ("gp", "tuned")
     assert run_of_choice(files, "extrapolation") == ("lr", "tuned")
 
@@ -38,6 +40,47 @@ def test_calibration_rows_are_split_and_never_judged_by_themselves() -> None:
                 np.testing.assert_array_equal(part.new_spread, evidence.calibration_spread[outside])
             seen += outside.tolist()
         assert sorted(seen) == list(range(50))
+
+
+def test_what_is_deployed_is_around_a_model_and_has_another_method_outside_where_there_are_shells(
+    tmp_path: Path,
+) -> None:
+    rng = np.random.default_rng(0)
+    subsets = {subset: bending_arm(120, seed=place) for place, subset in enumerate(SUBSETS)}
+    write_table(to_table(subsets), tmp_path / "t.parquet")
+    stored = to_table(subsets).drop(columns=["u1", "u2"])
+    stored.iloc[:, 1:] += rng.standard_normal((len(stored), 3))
+    stored.to_parquet(tmp_path / "p.parquet")
+    quantiles = [
+        bounds_frame(np.stack([rows.positions - half, rows.positions + half], axis=-1), subset, level)
+        for subset, rows in subsets.items()
+        if subset != "train"
+        for level, half in ((0.8, 0.01), (0.9, 0.02))
+    ]
+    pd.concat(quantiles).to_parquet(tmp_path / "q.parquet")
+    rows = np.arange(60)
+    shells = {"core_0": rows, "shell_0": rows + 60, "gp/tuned/0": subsets["train"].positions[60:]}
+    np.savez(tmp_path / "s.npz", **shells, centre=np.zeros(2), scale=np.ones(2))
+    methods = {name: INTERVAL_METHODS[name] for name in ("scp_mapie", "cqr", "auto")}
+    for regime, run, outside in (
+        ("auto", ("gp", "tuned"), "auto"),
+        ("inside", ("gp", "tuned"), "scp_mapie"),
+        ("auto", ("lr", "tuned"), "scp_mapie"),  # nothing of this run was fitted on a core
+    ):
+        evidences = Evidences(
+            tmp_path / "t.parquet",
+            predictions={run: tmp_path / "p.parquet"},
+            quantiles={("gb", "paper"): tmp_path / "q.parquet"},
+            refits=None,
+            confidence_levels=[0.8, 0.9],
+            shells=tmp_path / "s.npz" if run[0] == "gp" else None,
+        )
+        choose(evidences, methods=methods, runs=[run], seed=0, regime=regime, choice=tmp_path / "c.csv")
+        best = pd.read_csv(tmp_path / "c.csv").iloc[0]
+        assert (best["interval_method"], best["chosen"], best["deployed"]) == ("cqr", True, False)
+        mine = deployed_choice(tmp_path / "c.csv")
+        assert mine is not None
+        assert (mine["model"], mine["interval_method"], mine["outside"]) == (run[0], "scp_mapie", outside)
 
 
 def test_errors_that_grow_with_the_spread_choose_the_normalised_method(tmp_path: Path) -> None:
@@ -64,16 +107,18 @@ def test_errors_that_grow_with_the_spread_choose_the_normalised_method(tmp_path:
             confidence_levels=[0.8, 0.9],
         )
         out = tmp_path / f"{place}.csv"
-        choose(evidences, methods=INTERVAL_METHODS, runs=[("gp", "tuned")], seed=0, choice=out)
+        choose(evidences, methods=INTERVAL_METHODS, runs=[("gp", "tuned")], seed=0, regime="inside", choice=out)
         choices.append(pd.read_csv(out))
     pd.testing.assert_frame_equal(*choices)
     best = choices[0].iloc[0]
     assert (best["model"], best["interval_method"], best["chosen"]) == ("gp", "scp_spread", True)
     assert set(choices[0]["model"]) == {"gp"}
+    assert choices[0]["deployed"].tolist() == choices[0]["chosen"].tolist()
+    assert (choices[0]["outside"] == choices[0]["interval_method"]).all()
     assert choices[0]["cv_winkler_mm"].is_monotonic_increasing
     assert not {"gaussian", "qr", "cv_plus"} & set(choices[0]["interval_method"])
     only = {"gaussian": INTERVAL_METHODS["gaussian"]}
     with pytest.raises(SoftkinError, match="add scp_mapie"):
-        choose(evidences, methods=only, runs=[("gp", "tuned")], seed=0, choice=tmp_path / "never.csv")
+        choose(evidences, methods=only, runs=[("gp", "tuned")], seed=0, regime="inside", choice=tmp_path / "never.csv")
     assert read_subset(tmp_path / "t.parquet", "test").positions.min() > 1e5
     assert shown_runs(tmp_path / "0.csv") == {("gb", "paper"), ("gp", "tuned")}

@@ -38,7 +38,12 @@ def results(tmp_path: Path) -> Path:
                 errors = {"euclidean_mean_mm": factor * error, "euclidean_p95_mm": 2 * factor * error}
                 scores.append({"dataset": robot, "model": "gp", "preset": preset, "subset": subset} | errors)
         for chosen, covers in ((True, 0.912), (False, 0.7)):
-            values = {"confidence_level": 0.9, "test_mean_width_mm": 1.5, "test_coverage": covers}
+            values = {
+                "confidence_level": 0.9,
+                "test_mean_width_mm": 1.5,
+                "test_coverage": covers,
+                "extrapolation_coverage": 0.88,
+            }
             choices.append({"dataset": robot, "chosen": chosen} | values)
     selection = [{"dataset": robot, "model": "gp", "preset": "tuned", "deployed": True} for robot in robots]
     for name, rows in (("selection", selection), ("point_metrics", scores), ("interval_choice", choices)):
@@ -54,7 +59,7 @@ def test_the_readme_gets_four_pictures_and_a_table(results: Path, tmp_path: Path
     assert text.startswith(f"# softkin\n\n{BEGIN}\n")
     assert text.endswith(f"{END}\n\nThe rest.\n")
     assert "old" not in text
-    assert "| FINGER | Gaussian process | 0.500 | 1.00 | 2.00 | 1.50 | 91.2% |" in text
+    assert "| FINGER | Gaussian process | 0.500 | 1.00 | 2.00 | 1.50 | 91.2% | 88.0% |" in text
     assert "| ARM (LEAK: test rows stand in train) |" in text
     for folder, figure in PICTURES:
         path = FOLDER / f"{folder}_{figure}.png"

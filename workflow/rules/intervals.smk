@@ -95,6 +95,7 @@ rule intervals:
         **interval_params(),
         searched=searched_runs(),
         objective=config["objective"],
+        regime=config["regime"],
     script:
         "../scripts/intervals.py"
 
@@ -183,7 +184,15 @@ rule calibrated_model:
         table="results/{dataset}/table.parquet",
         choice="results/{dataset}/interval_choice.csv",
         models=run_files("model.joblib"),
-        code=package("calibrated_model.py", "conformal.py", "fitting.py"),
+        shells=["results/{dataset}/shells.npz"] * asks_for("shells"),
+        code=package(
+            "calibrated_model.py",
+            "choosing_intervals.py",
+            "conformal.py",
+            "evidence.py",
+            "fitting.py",
+            "shells.py",
+        ),
     output:
         "results/{dataset}/calibrated_model.joblib",
     log:

@@ -15,5 +15,6 @@ with job(snakemake.log[0], f"calibrated model {dataset}"):
         specs=MODELS,
         methods=INTERVAL_METHODS,
         models=dict(zip(runs, snakemake.input.models, strict=True)),
+        shells=next(iter(snakemake.input.shells), None),
         output=snakemake.output[0],
     )

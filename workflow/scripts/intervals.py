@@ -1,7 +1,7 @@
-"""Rule intervals: put the intervals of every method around all models of a dataset, and choose one."""
+"""Rule intervals: choose a method for a dataset, and put the intervals of every method around all its models."""
 
 from softkin.calibrating import calibrate
-from softkin.choosing_intervals import choose, run_of_choice
+from softkin.choosing_intervals import choose, deployed_choice, run_of_choice
 from softkin.evidence import Evidences
 from softkin.intervals import INTERVAL_METHODS
 from softkin.job import job
@@ -19,7 +19,11 @@ with job(snakemake.log[0], f"intervals {snakemake.wildcards.dataset}"):
         confidence_levels=params.confidence_levels,
         shells=given.shells[0] if given.shells else None,
     )
-    calibrate(evidences, methods=methods, intervals=dict(zip(methods, snakemake.output.intervals, strict=True)))
     parameters = dict(zip(searched, given.parameters, strict=True))
     candidates = [run_of_choice(parameters, params.objective)] if searched else runs
-    choose(evidences, methods=methods, runs=candidates, seed=params.seed, choice=snakemake.output.choice)
+    choice = snakemake.output.choice
+    choose(evidences, methods=methods, runs=candidates, seed=params.seed, regime=params.regime, choice=choice)
+    best = deployed_choice(choice)
+    inside = {} if best is None else {(best["model"], best["preset"]): methods[best["interval_method"]]}
+    intervals = dict(zip(methods, snakemake.output.intervals, strict=True))
+    calibrate(evidences, methods=methods, inside=inside, intervals=intervals)

@@ -1,4 +1,4 @@
-"""One interval for everywhere: split conformal inside the training region, the shells' outside it."""
+"""One interval for everywhere: a calibrated one inside the training region, the shells' outside it."""
 
 from __future__ import annotations
 
@@ -14,14 +14,17 @@ from softkin.intervals.rolling_shells import half_widths
 
 
 def intervals(evidence: ShellEvidence, confidence_levels: Sequence[float]) -> Array:
-    """Plain split conformal prediction for commands inside, so that `test` is covered as often as promised and not
-    more; the wider of it and rolling shells for those outside. It is never narrower than split conformal prediction,
-    hence its guarantee for commands like those of `train`.
+    """`evidence.inside`, or split conformal prediction, for commands inside, so that `test` is covered as often as
+    promised and not more; stretched to hold the interval of rolling shells for those outside. It is never narrower than
+    the calibrated one, hence its guarantee for commands like those of `train`.
     """
-    deployed = evidence.deployed
-    limits = conformal_limits(np.abs(deployed.truth - deployed.calibration), confidence_levels)[:, None]
-    beyond = np.maximum(half_widths(evidence, confidence_levels), limits)
-    return around(deployed.new, np.where(outside(evidence)[:, None], beyond, limits))
+    deployed, bounds = evidence.deployed, evidence.inside
+    if bounds is None:
+        limits = conformal_limits(np.abs(deployed.truth - deployed.calibration), confidence_levels)[:, None]
+        bounds = around(deployed.new, np.broadcast_to(limits, (len(limits), *deployed.new.shape)))
+    beyond = around(deployed.new, half_widths(evidence, confidence_levels))
+    lower, upper = np.minimum(bounds[..., 0], beyond[..., 0]), np.maximum(bounds[..., 1], beyond[..., 1])
+    return np.where(outside(evidence)[:, None, None], np.stack([lower, upper], axis=-1), bounds)
 
 
 def outside(evidence: ShellEvidence) -> NDArray[np.bool_]:

@@ -92,7 +92,8 @@ def _how_sure(
         (f"mean width of a {level} interval", length(best["test_mean_width_mm"])),
         ("held the true coordinate, test", share_text(best["test_coverage"])),
         ("coordinates that keep the promise", str(kept.loc[TEST, "as_promised"])),
-        ("held beyond the range, unpromised", share_text(kept.loc[EXTRAPOLATION, "coverage"])),
+        ("held beyond the range, unpromised", share_text(best["extrapolation_coverage"])),
+        ("mean width there", length(best["extrapolation_mean_width_mm"])),
     ]
 
 

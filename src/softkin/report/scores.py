@@ -115,6 +115,8 @@ def choice_grid(choice: pd.DataFrame, models: Mapping[str, str], methods: Mappin
             share(row.test_coverage),
             *map(number, (row.test_mean_width_mm, row.test_winkler_mm)),
             Cell(number_text(row.winkler_ratio_to_paper)),
+            Cell(methods[row.outside]),
+            share(row.extrapolation_coverage),
         ]
         for row in choice.itertuples()
     ]
@@ -122,9 +124,10 @@ def choice_grid(choice: pd.DataFrame, models: Mapping[str, str], methods: Mappin
     sentence = (
         f"The {share_text(level, digits=0)} intervals that each robot could have had, and the one it got, that of the "
         "lowest Winkler score on validation rows; what it was worth shows on test rows, in mm and as a ratio to the "
-        "paper's recipe."
+        "paper's recipe. Beyond the training range, where nothing is promised, another method may take over."
     )
     columns = [ROBOT, Column("Method"), Column("Around"), Column("Winkler when choosing (mm)", is_number=True)]
     columns += [Column("Covers, test", is_number=True), Column("Mean width, test (mm)", is_number=True)]
     columns += [Column("Winkler, test (mm)", is_number=True), Column("Ratio to the paper's", is_number=True)]
+    columns += [Column("Beyond the range"), Column("Covers there", is_number=True)]
     return Grid("choice", "Which interval each robot got", sentence, columns, rows, "tables/interval_choice.csv")

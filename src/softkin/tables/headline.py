@@ -56,15 +56,19 @@ def headline(
 
 
 def _how_sure(intervals: pd.DataFrame, wide: int) -> list[str]:
-    """Per dataset the chosen interval: what surrounds a coordinate, how wide, how often it covers `test`."""
+    """Per dataset the chosen interval: what surrounds a coordinate, how wide, how often it covers `test`; and how often
+    extrapolation.
+    """
     chosen = intervals[intervals["chosen"]]
     level = chosen["confidence_level"].iloc[0]
-    lines = ["", f"  how sure: {level:.0%} intervals, mean over coordinates, on test", ""]
-    lines.append(f"  {'dataset':<{wide}}{'around':<14}{'method':<16}{'width (mm)':>12}{'covers':>10}")
+    lines = ["", f"  how sure: {level:.0%} intervals, mean over coordinates", ""]
+    lines.append(f"  {'dataset':<{wide}}{'around':<14}{'method':<16}{'width (mm)':>12}{'test':>8}{'beyond':>9}")
     for row in chosen.itertuples():
         around = f"{row.model} {row.preset}"
         width = format_number(row.test_mean_width_mm)
         lines.append(
-            f"  {row.dataset:<{wide}}{around:<14}{row.interval_method:<16}{width:>12}{row.test_coverage:>10.1%}"
+            f"  {row.dataset:<{wide}}{around:<14}{row.interval_method:<16}{width:>12}{row.test_coverage:>8.1%}"
+            f"{row.extrapolation_coverage:>9.1%}"
         )
-    return [*lines, "", "  The method is chosen, and calibrated, on `validation` alone.", ""]
+    lines += ["", "  The method is chosen, and calibrated, on `validation` alone. Beyond the training region"]
+    return [*lines, "  intervals are widened by what shells of `train` show, and nothing is promised.", ""]

@@ -1,4 +1,4 @@
-"""The interval method each robot gets, chosen on `validation`, and what it turned out to be worth on `test`."""
+"""The interval method each robot gets, chosen on `validation`, and what it turned out to be worth."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import pandas as pd
 
-from softkin.interface import PAPERS_RUN, TEST
+from softkin.interface import EXTRAPOLATION, PAPERS_RUN, TEST
 
 #: What the paper puts around its model.
 PAPERS_METHOD = "scp_mapie"
@@ -14,15 +14,20 @@ SHOWN = ("coverage", "mean_width_mm", "winkler_mm")
 
 
 def interval_choice(candidates: Mapping[str, pd.DataFrame], metrics: pd.DataFrame) -> pd.DataFrame:
-    """Candidates of every dataset, best first by `cv_winkler_mm`, with their test scores (mean over moving
-    coordinates) and the ratio of their Winkler score to that of the paper's recipe, where it was run.
+    """Candidates of every dataset, best first by `cv_winkler_mm`, with their scores (mean over moving coordinates) on
+    test and, by the method that each has `outside`, on extrapolation; and the ratio of their Winkler score on test to
+    that of the paper's recipe, where it was run.
     """
-    test = metrics[(metrics["subset"] == TEST) & (metrics["coordinate"] == "mean_informative")]
+    mean = metrics[metrics["coordinate"] == "mean_informative"]
     key = ["dataset", "model", "preset", "interval_method", "confidence_level"]
-    test = test.set_index(key)[list(SHOWN)].add_prefix("test_")
+    test, beyond = (
+        mean[mean["subset"] == subset].set_index(key)[list(SHOWN)].add_prefix(f"{subset}_")
+        for subset in (TEST, EXTRAPOLATION)
+    )
     frames = []
     for dataset, frame in candidates.items():
         mine = frame.assign(dataset=dataset).join(test, on=key)
+        mine = mine.join(beyond, on=["outside" if name == "interval_method" else name for name in key])
         level = float(mine["confidence_level"].iloc[0])
         papers = (dataset, *PAPERS_RUN, PAPERS_METHOD, level)
         reference = float(test.loc[papers, "test_winkler_mm"]) if papers in test.index else float("nan")

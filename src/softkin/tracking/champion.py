@@ -24,7 +24,7 @@ import softkin
 from softkin.calibrated_model import CalibratedModel
 from softkin.choosing_intervals import nearest_level
 from softkin.files import read_json, sha256_of
-from softkin.interface import command_columns, coordinate_columns
+from softkin.interface import AUTO, command_columns, coordinate_columns
 from softkin.tracking.model_card import model_card
 from softkin.tracking.store import CONTENT, NOTE, PARENT, Campaign, Record, client_of, common_tags, experiment_of, put
 
@@ -59,7 +59,9 @@ def log_champion(
     name = f"softkin-{about['dataset']}"
     key = {"model": model.spec.name, "preset": model.preset}
     scores = _rows(pd.read_csv(point), **key)
-    table = _rows(pd.read_csv(intervals), **key, interval_method=model.method.name, coordinate="mean_informative")
+    # Of one interval for everywhere, where the model has shells; inside the training region they are the same.
+    method = AUTO if model.shells else model.method.name
+    table = _rows(pd.read_csv(intervals), **key, interval_method=method, coordinate="mean_informative")
     level = nearest_level(sorted(table["confidence_level"].unique()))
     shown = table[table["confidence_level"] == level]
     card = model_card(model, registered=name, about=about, scores=scores, intervals=shown, level=level)

@@ -19,6 +19,12 @@ PROMISES = {
     "drawn like the {n} rows of `validation` that calibrated it. That is coordinate by coordinate, not all at once.",
     False: "Of intervals by this method, nothing is promised.",
 }
+#: Whether intervals outside the training region are made for there.
+BEYOND = {
+    True: "Outside the range of the training commands nothing is promised, neither of positions nor of intervals. "
+    "Intervals there are widened, by what the same model got wrong outside inner cores of the training commands.",
+    False: "Outside the range of the training commands nothing is promised, neither of positions nor of intervals.",
+}
 
 
 def model_card(
@@ -50,10 +56,7 @@ def model_card(
         lines.append(f"| {subset} | {' | '.join(numbers)} |")
     promise = PROMISES[model.method.guarantee == MARGINAL].format(level=level, n=len(model.known.truth))
     lines += ["", "## What is promised", "", promise]
-    lines += [
-        "Outside the range of the training commands nothing is promised, neither of positions nor of intervals.",
-        "",
-    ]
+    lines += [BEYOND[bool(model.shells)], ""]
     lines += ["## Data", "", _rows(about), ""]
     lines += [f"- **{found['severity']}**: {found['sentence']} {found['consequence']}" for found in about["findings"]]
     lines += [] if about["findings"] else ["The audit has no finding."]

@@ -18,7 +18,12 @@ def scores(mean: float, p95: float) -> pd.DataFrame:
 SURE = pd.DataFrame(
     [
         {"dataset": "arm", "model": "gp", "preset": "tuned", "interval_method": method, "confidence_level": 0.9}
-        | {"test_mean_width_mm": width, "test_coverage": 0.912, "chosen": method == "scp_spread"}
+        | {
+            "test_mean_width_mm": width,
+            "test_coverage": 0.912,
+            "extrapolation_coverage": 0.95,
+            "chosen": method == "scp_spread",
+        }
         for method, width in (("scp_spread", 2.5), ("cqr", 7.0))
     ]
 )
@@ -45,5 +50,5 @@ def test_without_tuning_there_is_no_choice_to_show() -> None:
 
 def test_the_chosen_interval_and_what_it_covers() -> None:
     text = headline(CHOSEN, scores(0.5, 1.25), SURE, [])
-    assert "arm gp tuned scp_spread 2.50 91.2%" in " ".join(text.split())
+    assert "arm gp tuned scp_spread 2.50 91.2% 95.0%" in " ".join(text.split())
     assert "cqr" not in text
