@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,20 +16,23 @@ TINY_MM = 1e-12
 
 @dataclass(frozen=True, slots=True)
 class Growth:
-    """Error proportional to reach^`reach` * distance^`distance`, each (n_coordinates,).
+    """Error proportional to reach^`reach` * exp(`distance` x + `bend` x^2), each (n_coordinates,), x = log(distance).
 
     `reach` is how far out the core goes, in units of how far `train` goes; the distance of a command is its norm in
-    units of the core's reach. `distance` is at least 0, so that an interval never narrows along a ray that leaves the
-    core. `largest` is the reach of the largest core.
+    units of the core's reach. Beyond `farthest`, the largest x of any shell, it goes on as steeply as it got there,
+    which is never downwards, so that an interval never narrows along a ray that leaves the core. `largest` is the reach
+    of the largest core.
     """
 
     reach: Array
     distance: Array
+    bend: Array
     largest: float
+    farthest: float
 
     def of_shell(self, reach: float, distances: Array) -> Array:
         """Difficulty (n_rows, n_coordinates) of the rows of a shell, around a core of this reach."""
-        return np.asarray(np.exp(self.reach * np.log(reach) + np.outer(np.log(distances), self.distance)))
+        return np.asarray(np.exp(self.reach * np.log(reach) + self._of(distances)))
 
     def of_new(self, distances: Array) -> Array:
         """Difficulty (n_rows, n_coordinates) of new rows for the model fitted on all of `train`.
@@ -39,7 +41,13 @@ class Growth:
         that was seen.
         """
         best_seen = np.where(self.reach < 0, self.reach * np.log(self.largest), 0.0)
-        return np.asarray(np.exp(best_seen + np.outer(np.log(distances), self.distance)))
+        return np.asarray(np.exp(best_seen + self._of(distances)))
+
+    def _of(self, distances: Array) -> Array:
+        x = np.log(distances)[:, None]
+        near = np.minimum(x, self.farthest)
+        beyond = (x - near) * (self.distance + 2 * self.bend * self.farthest)
+        return np.asarray(near * self.distance + near**2 * self.bend + beyond)
 
 
 def reach(evidence: ShellEvidence) -> float:
@@ -65,32 +73,35 @@ def shell_distances(evidence: ShellEvidence) -> list[tuple[float, Array]]:
 
 def growth_laws(evidence: ShellEvidence) -> list[Growth]:
     """Two laws: one of each coordinate, and one that all share, which few rows tell better. By least squares of the
-    logarithm of the errors, of each coordinate and of all in units of their 90 % quantiles.
+    logarithm of the errors, of each coordinate and of all in units of their 90 % quantiles; each shell counts alike.
     """
     errors = np.concatenate([np.abs(shell.truth - shell.predicted) for shell in evidence.shells])
     places = shell_distances(evidence)
     reaches = np.concatenate([np.full(len(distances), np.log(core)) for core, distances in places])
     distances = np.log(np.concatenate([distances for _, distances in places]))
+    weights = np.concatenate([np.full(len(distances), 1 / len(distances)) for _, distances in places])
     scale = np.maximum(np.quantile(errors, 0.9, axis=0), TINY_MM)
     together = np.sqrt(np.mean((errors / scale) ** 2, axis=1))
-    least = np.maximum(LEAST_SHARE * np.median(errors, axis=0), TINY_MM)
-    own = np.array([slopes(np.maximum(e, low), reaches, distances) for e, low in zip(errors.T, least, strict=True)])
-    shared = slopes(np.maximum(together, LEAST_SHARE * max(float(np.median(together)), TINY_MM)), reaches, distances)
-    largest = max(core for core, _ in places)
     n_coordinates = errors.shape[1]
-    return [
-        Growth(own[:, 0], own[:, 1], largest),
-        Growth(np.full(n_coordinates, shared[0]), np.full(n_coordinates, shared[1]), largest),
-    ]
+    laws = []
+    for columns in (errors, together[:, None]):
+        least = np.maximum(LEAST_SHARE * np.median(columns, axis=0), TINY_MM)
+        slopes = np.array([law(column, reaches, distances, weights) for column in np.maximum(columns, least).T])
+        by_reach, by_distance, bend = np.broadcast_to(slopes, (n_coordinates, 3)).T
+        laws.append(Growth(by_reach, by_distance, bend, max(core for core, _ in places), float(distances.max())))
+    return laws
 
 
-def slopes(errors: Array, log_reaches: Array, log_distances: Array) -> Sequence[float]:
-    """Slopes of log(errors) (n_rows,), which are above 0, in reach and distance; that of the distance at least 0."""
-    logs = np.log(errors)
-    constant = np.ones_like(logs)
-
-    def fitted(*columns: Array) -> list[float]:
-        return [float(slope) for slope in np.linalg.lstsq(np.column_stack([constant, *columns]), logs)[0][1:]]
-
-    by_reach, by_distance = fitted(log_reaches, log_distances)
-    return (by_reach, by_distance) if by_distance >= 0 else (fitted(log_reaches)[0], 0.0)
+def law(errors: Array, log_reaches: Array, log_distances: Array, weights: Array) -> tuple[float, float, float]:
+    """Slope of log(errors) (n_rows,), which are above 0, in reach; slope and bend in distance, rising as far as there
+    are rows: without a bend where it would fall there, without a slope where that would.
+    """
+    roots, logs = np.sqrt(weights), np.log(errors)
+    terms = np.column_stack([np.ones_like(logs), log_reaches, log_distances, log_distances**2])
+    found = np.zeros(4)
+    for n_terms in (4, 3, 2):
+        found[:] = 0.0
+        found[:n_terms] = np.linalg.lstsq(terms[:, :n_terms] * roots[:, None], logs * roots)[0]
+        if found[2] >= 0 and found[2] + 2 * found[3] * log_distances.max() >= 0:
+            break
+    return float(found[1]), float(found[2]), float(found[3])

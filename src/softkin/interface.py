@@ -260,6 +260,7 @@ class DatasetResults:
     choice: Path
     conditional: Path
     outside: Path
+    spaces: Path
     notes: Mapping[str, str]
     model_titles: Mapping[str, str]
     method_titles: Mapping[str, str]

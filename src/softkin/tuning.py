@@ -42,12 +42,15 @@ class TuningSettings:
 
 @dataclass(frozen=True, slots=True)
 class TuningResult:
-    """Best parameters, their score (mm), the table of all trials, the study's fingerprint."""
+    """Best parameters, their score (mm), the table of all trials, the study's fingerprint; parameters and scores of all
+    complete trials, the best first.
+    """
 
     params: Params
     score_mm: float
     trials: pd.DataFrame
     fingerprint: str
+    complete: Sequence[tuple[Params, float]]
 
 
 def bounded_rows(samples: Samples, max_rows: int, seed: int) -> Samples:
@@ -160,9 +163,10 @@ def _result(trials: list[FrozenTrial], mark: str, model: str) -> TuningResult:
     complete = [trial for trial in trials if trial.state == TrialState.COMPLETE and trial.value is not None]
     if not complete:
         raise SoftkinError(f"model '{model}': none of {len(trials)} trials could be scored; see the trial table")
-    best = min(complete, key=lambda trial: (trial.value, trial.number))
+    complete.sort(key=lambda trial: (trial.value, trial.number))
+    found = [(trial.user_attrs["params"], float(trial.value or 0.0)) for trial in complete]
     table = pd.DataFrame([_row(place, trial) for place, trial in enumerate(trials)])
-    return TuningResult(best.user_attrs["params"], float(best.value or 0.0), table, mark)
+    return TuningResult(*found[0], table, mark, found)
 
 
 def _row(place: int, trial: FrozenTrial) -> dict[str, Any]:

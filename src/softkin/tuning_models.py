@@ -201,4 +201,14 @@ def tune_table(
         params = dict(result.params)
         space = params.pop(SPACE)
         finite = {name: score if np.isfinite(score) else None for name, score in scores.items()}
-        write_json(parameters[preset], {SPACE: space, "params": params, **finite, **record(result)})
+        other = {"other_space": other_space(result)} if preset == OUTER else {}
+        write_json(parameters[preset], {SPACE: space, "params": params, **finite, **other, **record(result)})
+
+
+def other_space(result: TuningResult) -> dict[str, Any] | None:
+    """The best trial of a target space other than the best one's: its space, params and score; None without one."""
+    for found, score in result.complete:
+        if found[SPACE] != result.params[SPACE]:
+            params = {name: value for name, value in found.items() if name != SPACE}
+            return {SPACE: found[SPACE], "params": params, SCORES[OUTER]: score}
+    return None

@@ -41,6 +41,7 @@ FLOORS = [
         "calibrating",
         "choosing_intervals",
         "refitting_shells",
+        "refitting_spaces",
         "tuning_models",
         "tuning_quantiles",
         "scoring_regions",

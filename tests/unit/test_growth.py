@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from softkin.growth import Growth, growth_laws, new_distances, slopes
+from softkin.growth import Growth, growth_laws, law, new_distances
 from softkin.interface import Array, Evidence, Shell, ShellEvidence
 from softkin.intervals.rolling_shells import half_widths
 
@@ -34,9 +34,35 @@ def law_abiding(by_reach: float, by_distance: float, new: Array, seed: int = 0) 
 
 def test_the_law_is_found_that_the_errors_follow() -> None:
     evidence = law_abiding(3.0, 5.0, np.zeros((1, 2)))
-    for law in growth_laws(evidence):
-        np.testing.assert_allclose(law.reach, 3.0, atol=0.6)
-        np.testing.assert_allclose(law.distance, 5.0, atol=0.8)
+    for found in growth_laws(evidence):
+        np.testing.assert_allclose(found.reach, 3.0, atol=1.0)
+        one, three = (np.log(found.of_shell(1.0, np.exp([x]))[0]) for x in (0.1, 0.3))
+        np.testing.assert_allclose((three - one) / 0.2, 5.0, atol=1.5)
+
+
+def test_a_bent_law_is_found_and_goes_on_as_steeply_as_it_got_there() -> None:
+    """A polynomial's errors grow as Chebyshev's, not as a power: cosh(n arccosh(distance))."""
+    train = np.random.default_rng(0).uniform(-1, 1, (2000, 2))
+    norms, shells = norm(train), []
+    for radius in (0.6, 0.8, 1.0):
+        core, commands = train[norms <= radius], train[norms > radius]
+        distances = norm(commands) / norm(core).max()
+        errors = np.cosh(6 * np.arccosh(distances))[:, None] * [1.0, 1.0]
+        shells.append(Shell(core, commands, errors, np.zeros_like(errors)))
+    new = np.array([[1.45, 0.0]])
+    evidence = ShellEvidence(
+        Evidence(np.zeros((50, 2)), np.zeros((50, 2)), np.zeros((1, 2)), None, None, None, train, None, new),
+        shells,
+        norm,
+    )
+    for found in growth_laws(evidence):
+        assert (found.bend < 0).all()
+        grown = np.log(found.of_shell(1.0, np.array([1.1, 1.5]))[:, 0])
+        true = 6 * np.arccosh([1.1, 1.5])
+        assert grown[1] - grown[0] == pytest.approx(true[1] - true[0], abs=0.7)
+        steps = np.log(found.of_shell(1.0, np.exp(found.farthest + np.array([-1e-6, 0.0, 1e-6]))))[:, 0]
+        assert steps[2] - steps[1] == pytest.approx(steps[1] - steps[0], rel=1e-3)
+        assert steps[2] > steps[1]
 
 
 def test_intervals_cover_outside_where_errors_follow_a_law() -> None:
@@ -54,16 +80,18 @@ def test_intervals_cover_outside_where_errors_follow_a_law() -> None:
 
 
 def test_a_model_is_never_taken_for_better_than_the_best_that_was_seen() -> None:
-    law = Growth(np.array([-4.0, 4.0]), np.array([2.0, 0.0]), largest=0.5)
-    np.testing.assert_allclose(law.of_shell(0.5, np.array([1.0, 2.0])), [[16.0, 1 / 16], [64.0, 1 / 16]])
-    np.testing.assert_allclose(law.of_new(np.array([1.0, 2.0])), [[16.0, 1.0], [64.0, 1.0]])
+    nothing = np.zeros(2)
+    one = Growth(np.array([-4.0, 4.0]), np.array([2.0, 0.0]), nothing, largest=0.5, farthest=0.1)
+    np.testing.assert_allclose(one.of_shell(0.5, np.array([1.0, 2.0])), [[16.0, 1 / 16], [64.0, 1 / 16]])
+    np.testing.assert_allclose(one.of_new(np.array([1.0, 2.0])), [[16.0, 1.0], [64.0, 1.0]])
 
 
 def test_errors_that_shrink_with_the_distance_are_taken_for_constant() -> None:
     log_reaches = np.repeat([-1.0, -0.5], 50)
     log_distances = np.tile(np.linspace(0.01, 0.5, 50), 2)
-    by_reach, by_distance = slopes(np.exp(2 * log_reaches - 3 * log_distances), log_reaches, log_distances)
-    assert by_distance == 0.0
+    errors = np.exp(2 * log_reaches - 3 * log_distances)
+    by_reach, by_distance, bend = law(errors, log_reaches, log_distances, np.ones(100))
+    assert by_distance == bend == 0.0
     assert by_reach == pytest.approx(2.0)
 
 

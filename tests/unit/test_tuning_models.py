@@ -76,6 +76,12 @@ def found(samples: Samples, model: str, folder: Path, n_trials: int = 8) -> dict
 def test_an_arm_that_bends_in_arcs_is_given_curvature_coordinates(tmp_path: Path) -> None:
     by_preset = found(bending_arm(120, n_markers=2), "lr", tmp_path)
     assert by_preset[OUTER]["target_space"] == "curvature"
+    other = by_preset[OUTER]["other_space"]
+    assert isinstance(other, dict)
+    assert other["target_space"] == "cartesian"
+    assert other["shell_mae_mm"] >= by_preset[OUTER]["shell_mae_mm"]
+    assert set(other["params"]) == set(by_preset[OUTER]["params"])
+    assert "other_space" not in by_preset[TUNED]
     for scores in by_preset.values():
         assert 0 <= scores["cv_mae_mm"] < np.inf
         assert 0 <= scores["shell_mae_mm"] < np.inf

@@ -8,7 +8,7 @@ import softkin
 from softkin.configuration import check_configuration
 from softkin.datasets import READERS, reader_files
 from softkin.datasets.reaching import warning, with_stand_ins
-from softkin.interface import PAPER, PRESETS, SEARCHED, SoftkinError, TUNED
+from softkin.interface import OUTER, PAPER, PRESETS, SEARCHED, SoftkinError, TUNED
 from softkin.intervals import INTERVAL_METHODS
 from softkin.models import MODELS, source_files
 from softkin.quantile_models import QUANTILE_MODELS
@@ -60,10 +60,15 @@ TABLES = [
     "conditional_coverage.csv",
     "alarm_rates.csv",
     "extrapolation_intervals.csv",
+    "target_spaces.csv",
     "published_comparison.csv",
     "published_intervals.csv",
     *(["published_columns.csv"] if TUNED in config["presets"] else []),
-    *(["selection.csv", "searched_runs.csv"] if set(SEARCHED) & set(config["presets"]) else []),
+    *(
+        ["selection.csv", "searched_runs.csv"]
+        if set(SEARCHED) & set(config["presets"])
+        else []
+    ),
 ]
 
 
@@ -146,6 +151,10 @@ def run_files(name, presets=tuple(PRESETS), models=tuple(config["models"])):
     ]
 
 
+# The models that are fitted in either target space, to tell what a space is worth.
+COMPARED = config["models"] * (
+    OUTER in config["presets"] and len(config["target_spaces"]) > 1
+)
 # The models that CV+ and jackknife+-after-bootstrap refit, if any of these methods is asked for.
 CHEAP_MODELS = [name for name in config["models"] if MODELS[name].is_cheap]
 QUANTILE_RUNS = [

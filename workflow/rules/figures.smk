@@ -16,6 +16,7 @@ rule figures:
         choice="results/{dataset}/interval_choice.csv",
         conditional="results/{dataset}/conditional_coverage.csv",
         outside="results/{dataset}/extrapolation_intervals.csv",
+        spaces="results/{dataset}/target_spaces.csv",
         code=package(
             "bounds.py",
             "datasets/table.py",

@@ -50,3 +50,30 @@ rule fit_tuned:
         seed=config["seed"],
     script:
         "../scripts/fit_tuned.py"
+
+
+# in:  the table of a dataset (rows of train are fitted on, commands of test and extrapolation predicted), and what the
+#      searches by outer shells found
+# out: what every model predicts that is fitted in the target space which its search has not chosen
+rule refit_spaces:
+    input:
+        table="results/{dataset}/table.parquet",
+        parameters=run_files("parameters.json", [OUTER], COMPARED),
+        code=package("refitting_spaces.py", "refitting.py", *FITTING_CODE),
+    output:
+        "results/{dataset}/other_spaces.parquet",
+    log:
+        "results/logs/refit_spaces/{dataset}.log",
+    benchmark:
+        "results/benchmarks/refit_spaces/{dataset}.tsv"
+    priority: 10
+    conda:
+        SOFTWARE
+    threads: 1
+    params:
+        models=COMPARED,
+        robot=robot,
+        max_fit_rows=config["max_fit_rows"],
+        seed=config["seed"],
+    script:
+        "../scripts/refit_spaces.py"

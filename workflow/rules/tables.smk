@@ -9,6 +9,7 @@ rule tables:
         conditional=of_every_dataset("results/{dataset}/conditional_coverage.csv"),
         alarms=of_every_dataset("results/{dataset}/alarm_rates.csv"),
         outside=of_every_dataset("results/{dataset}/extrapolation_intervals.csv"),
+        spaces=of_every_dataset("results/{dataset}/target_spaces.csv"),
         descriptions=of_every_dataset("results/{dataset}/dataset.json"),
         data_cards=of_every_dataset("results/{dataset}/data_card.json"),
         parameters=of_every_dataset(run_files("parameters.json", SEARCHED)),

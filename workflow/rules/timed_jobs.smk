@@ -26,6 +26,7 @@ def timed_jobs():
         ),
         ("refit", [["", ""]] * asks_for("folds", "resamples"), "", []),
         ("refit_shells", [["", ""]] * asks_for("shells"), "", []),
+        ("refit_spaces", [["", ""]] * bool(COMPARED), "", []),
         ("intervals", [["", ""]], "", []),
         ("score_intervals", [["", ""]], "", []),
         ("score_outside", [["", ""]], "", []),

@@ -38,6 +38,7 @@ with job(snakemake.log[0], f"figures {dataset}"):
         choice=Path(given.choice),
         conditional=Path(given.conditional),
         outside=Path(given.outside),
+        spaces=Path(given.spaces),
         notes=notes,
         model_titles={name: spec.title for name, spec in learners.items()},
         method_titles={name: method.title for name, method in INTERVAL_METHODS.items()},

@@ -1,7 +1,7 @@
 """Rule score: predictions -> point metrics of one dataset."""
 
 from softkin.job import job
-from softkin.scoring import score
+from softkin.scoring import score, score_spaces
 
 dataset = snakemake.wildcards.dataset
 files = zip(snakemake.input.predictions, snakemake.input.fit, snakemake.input.predict, strict=True)
@@ -15,4 +15,12 @@ with job(snakemake.log[0], f"score {dataset}"):
         },
         point=snakemake.output.point,
         markers=snakemake.output.markers,
+    )
+    score_spaces(
+        snakemake.input.table,
+        dataset=dataset,
+        parameters=dict(zip(snakemake.params.models, snakemake.input.parameters, strict=True)),
+        chosen=dict(zip(snakemake.params.models, snakemake.input.chosen, strict=True)),
+        others=next(iter(snakemake.input.other_spaces), None),
+        output=snakemake.output.spaces,
     )

@@ -16,6 +16,7 @@ with job(snakemake.log[0], "tables"):
         conditional=snakemake.input.conditional,
         alarms=snakemake.input.alarms,
         outside=snakemake.input.outside,
+        spaces=snakemake.input.spaces,
         descriptions=snakemake.input.descriptions,
         data_cards=snakemake.input.data_cards,
         parameters=snakemake.input.parameters,

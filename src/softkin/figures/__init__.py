@@ -16,6 +16,7 @@ from softkin.figures import (
     ranking,
     residuals,
     robot,
+    target_spaces,
     tuning_history,
     width,
     workspace,
@@ -38,6 +39,7 @@ FIGURES: dict[str, FigureSpec[DatasetResults]] = {
     "width": width.FIGURE,
     "conditional_coverage": conditional_coverage.FIGURE,
     "outside": outside.FIGURE,
+    "target_spaces": target_spaces.FIGURE,
     "tuning_history": tuning_history.FIGURE,
     "importance": importance.FIGURE,
 }

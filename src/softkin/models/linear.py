@@ -23,9 +23,11 @@ def build(params: Params, seed: int, threads: int) -> Any:
 
 
 def search_space(trial: BaseTrial) -> Params:
-    """Degree 1 to 8: at 704 rows and two commands, 44 features."""
+    """Degree 1 to 6. At 8 the errors of a noiseless robot are below a nanometre on `train` and thousands of times that
+    outside, which no shell of `train` foretells: on stand-ins, intervals made for there held 22 to 62 % at 90 %.
+    """
     return {
-        "degree": trial.suggest_int("degree", 1, 8),
+        "degree": trial.suggest_int("degree", 1, 6),
         "interaction_only": trial.suggest_categorical("interaction_only", [False, True]),
     }
 

@@ -20,7 +20,7 @@ from softkin.report.headline import robot_cards
 from softkin.report.images import pictures
 from softkin.report.jobs import Job, duration, measured, slowest_grid
 from softkin.report.marks import Marks, kinds
-from softkin.report.outside import outside_grid, searched_grid
+from softkin.report.outside import outside_grid, searched_grid, spaces_grid
 from softkin.report.provenance import citations, commit, data_grid, settings, versions
 from softkin.report.scores import choice_grid, interval_grid, point_grid
 from softkin.tables.published import summary
@@ -116,6 +116,7 @@ def _scores(
         choice_grid(frames["interval_choice"], models, methods, marks),
         interval_grid(frames["interval_metrics"], models, methods, level, marks),
         *([searched_grid(frames["searched_runs"], models, marks)] if "searched_runs" in frames else []),
+        *([spaces_grid(frames["target_spaces"], models, marks)] if len(frames["target_spaces"]) else []),
         outside_grid(frames["extrapolation_intervals"], models, methods, level, marks),
     ]
 

@@ -10,6 +10,8 @@ from softkin.interface import EXTRAPOLATION, TEST
 from softkin.report.grid import Cell, Column, Grid, number, number_text, share, share_text
 from softkin.report.marks import Marks
 
+#: What is compared with what.
+SPACES = ("cartesian", "curvature")
 ROBOT, MODEL, PRESET = (Column(title, filtered=True) for title in ("Robot", "Model", "Preset"))
 
 
@@ -36,6 +38,38 @@ def searched_grid(runs: pd.DataFrame, models: Mapping[str, str], marks: Marks) -
     titles = ["Cross-validation (mm)", "Outer shells (mm)", "MAE, test (mm)", "MAE, extrapolation (mm)"]
     columns += [Column(title, is_number=True) for title in titles]
     return Grid("searched", "What scores on train foretold", sentence, columns, rows, "tables/searched_runs.csv")
+
+
+def spaces_grid(spaces: pd.DataFrame, models: Mapping[str, str], marks: Marks) -> Grid:
+    """One row per model and subset: its errors in curvature coordinates beside those in positions."""
+    key = ["dataset", "subset", "model"]
+    wide = spaces.pivot(index=key, columns="target_space", values=["rmse_mm", "mae_mm"])
+    wide = wide.reindex(pd.MultiIndex.from_frame(spaces[key].drop_duplicates()))
+    chosen = spaces[spaces["is_chosen"]].set_index(key)["target_space"]
+    rows = []
+    for (dataset, subset, model), errors in wide.iterrows():
+        mine = [errors[error, space] for error in ("rmse_mm", "mae_mm") for space in SPACES]
+        rows.append(
+            [
+                Cell(dataset),
+                Cell(subset, marks.of(dataset, subset)),
+                Cell(models[model]),
+                Cell(chosen[dataset, subset, model]),
+                *map(number, mine),
+                Cell(number_text(mine[1] / mine[0])),
+            ]
+        )
+    beyond = wide.xs(EXTRAPOLATION, level="subset")["rmse_mm"]
+    better = beyond[SPACES[1]] < beyond[SPACES[0]]
+    sentence = (
+        "Every model fitted to positions and to curvature coordinates (bending and length of the arcs from base to "
+        "markers), each with the best parameters of its search by outer shells. On extrapolation curvature coordinates "
+        f"have the lower RMSE in {better.sum()} of {len(better)} cases."
+    )
+    columns = [ROBOT, Column("Rows", filtered=True, preset=EXTRAPOLATION), MODEL, Column("Chosen", filtered=True)]
+    titles = [f"{error}, {space} (mm)" for error in ("RMSE", "MAE") for space in SPACES]
+    columns += [Column(title, is_number=True) for title in [*titles, "Ratio of RMSE"]]
+    return Grid("spaces", "What curvature coordinates are worth", sentence, columns, rows, "tables/target_spaces.csv")
 
 
 def outside_grid(

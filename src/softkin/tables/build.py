@@ -30,6 +30,7 @@ def build_tables(
     conditional: Sequence[str | Path],
     alarms: Sequence[str | Path],
     outside: Sequence[str | Path],
+    spaces: Sequence[str | Path],
     descriptions: Sequence[str | Path],
     data_cards: Sequence[str | Path],
     parameters: Sequence[str | Path],
@@ -45,10 +46,10 @@ def build_tables(
 ) -> None:
     """Write every table into `folder`.
 
-    `point`, `markers`, `intervals`, `conditional`, `alarms`, `outside`, `descriptions` and `data_cards` hold one file
-    per dataset, `choices` is dataset -> file; `parameters` one per (dataset, model, preset) of `studies`, or none when
-    nothing was searched; `objective` is what the deployed models are chosen for; `sources` are the datasets' entries of
-    config/datasets.yaml.
+    `point`, `markers`, `intervals`, `conditional`, `alarms`, `outside`, `spaces`, `descriptions` and `data_cards`
+    hold one file per dataset, `choices` is dataset -> file; `parameters` one per (dataset, model, preset) of `studies`,
+    or none when nothing was searched; `objective` is what the deployed models are chosen for; `sources` are the
+    datasets' entries of config/datasets.yaml.
     """
     abouts = [read_json(path) for path in descriptions]
     cards = [read_json(path) for path in data_cards]
@@ -75,6 +76,7 @@ def build_tables(
     per_dataset = {"conditional_coverage": conditional, "alarm_rates": alarms, "extrapolation_intervals": outside}
     for name, paths in per_dataset.items():
         frames[name] = marked(_together(paths), leaks, calibrated=True)
+    frames["target_spaces"] = marked(_together(spaces), leaks)
     frames |= {} if columns is None else {"published_columns": columns}
     frames |= {} if chosen is None else {"selection": chosen, "searched_runs": foretold(searched, scores)}
     for name, frame in frames.items():

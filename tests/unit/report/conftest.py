@@ -109,7 +109,10 @@ def frames() -> dict[str, pd.DataFrame]:
     outside = pd.DataFrame([k | {"subset": s} for k in key for s in ("test", "extrapolation")])
     outside = outside.assign(interval_method="cps", confidence_level=0.9, coverage=0.91, mean_width_mm=2.0)
     outside = outside.assign(winkler_mm=3.0, winkler_ratio_to_oracle=1.25, guarantee="no guarantee", labels_used="none")
+    spaces = pd.DataFrame([k | {"subset": s} for k in key for s in ("test", "extrapolation")]).drop(columns="preset")
+    spaces = pd.concat([spaces.assign(target_space=s, rmse_mm=e) for s, e in (("cartesian", 4.0), ("curvature", 1.0))])
     return {
+        "target_spaces": spaces.assign(mae_mm=0.5, is_chosen=spaces["target_space"] == "curvature"),
         "point_metrics": point_metrics(),
         "searched_runs": searched,
         "extrapolation_intervals": outside.assign(refused=["", "too few rows"] * len(ROBOTS)),

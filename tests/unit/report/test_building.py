@@ -75,7 +75,7 @@ def test_the_headline_names_model_error_and_interval(page: Path) -> None:
 
 
 #: The tables of what holds outside train.
-OUTSIDE = ("searched", "outside")
+OUTSIDE = ("searched", "spaces", "outside")
 
 
 def test_leaks_cuts_and_stand_ins_stand_wherever_their_numbers_do(page: Path) -> None:

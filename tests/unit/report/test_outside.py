@@ -3,7 +3,7 @@ from __future__ import annotations
 import pandas as pd
 
 from softkin.report.marks import Marks
-from softkin.report.outside import outside_grid, searched_grid
+from softkin.report.outside import outside_grid, searched_grid, spaces_grid
 from tests.unit.report.conftest import ROBOTS, frames
 
 MODELS = {"gp": "Gaussian process"}
@@ -14,6 +14,14 @@ def test_the_rank_correlation_of_each_robot_stands_in_the_sentence() -> None:
     grid = searched_grid(frames()["searched_runs"], MODELS, MARKS)
     assert all(f"{robot} 0.750 (0.250)" in grid.sentence for robot in ROBOTS)
     assert [cell.text for cell in grid.rows[0]][3:] == ["curvature", "1.00", "2.00", "1.00", "2.50"]
+
+
+def test_a_target_space_stands_beside_the_other_and_the_sentence_counts() -> None:
+    grid = spaces_grid(frames()["target_spaces"], MODELS, MARKS)
+    assert [cell.text for cell in grid.rows[1]][1:] == [
+        *("extrapolation", "Gaussian process", "curvature", "4.00", "1.00", "0.500", "0.500", "0.250"),
+    ]
+    assert f"the lower RMSE in {len(ROBOTS)} of {len(ROBOTS)} cases" in grid.sentence
 
 
 def test_an_interval_stands_beside_the_oracle_and_a_refusal_says_why() -> None:
