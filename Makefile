@@ -18,8 +18,9 @@ unlock: .venv/installed
 new-robot: .venv/installed
 	@$(BIN)/python -m softkin.new_robot "$(FILE)" $(if $(NAME),--name "$(NAME)") $(if $(WRITE),--write)
 
+# The workflow tests, which wait for one run of the workflow, beside all others.
 test: .venv/installed
-	$(BIN)/pytest -m "not slow"
+	$(BIN)/pytest -m "not slow" -n $(CORES) --dist loadgroup
 
 test-run: .venv/installed
 	$(BIN)/snakemake --cores $(CORES) --directory results/test-run --configfile config/test.yaml

@@ -53,6 +53,14 @@ def four_subsets(sizes: dict[str, int], **arm: int) -> dict[str, Samples]:
     }
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """The workflow tests share one long run: with `-n` they stay together, and start first."""
+    workflow = [item for item in items if "workflow" in item.path.relative_to(HOUSE).parts]
+    for item in workflow:
+        item.add_marker(pytest.mark.xdist_group("workflow"))
+    items.sort(key=lambda item: item not in workflow)
+
+
 @pytest.fixture
 def samples() -> Samples:
     return bending_arm(120)

@@ -14,6 +14,9 @@ import pytest
 
 from tests.conftest import HOUSE
 
+#: Of one run, with the other tests beside it.
+MAX_SECONDS = 580
+
 
 @dataclass(frozen=True)
 class House:
@@ -39,7 +42,7 @@ class House:
             capture_output=True,
             text=True,
             check=False,
-            timeout=280,
+            timeout=MAX_SECONDS,
         )
 
     def command(self, *options: str, cores: int = 2, work: Path | None = None, more: Path | None = None) -> list[str]:

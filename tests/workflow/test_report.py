@@ -9,7 +9,7 @@ import pytest
 from softkin.models import MODELS
 from tests.workflow.conftest import House
 
-pytestmark = pytest.mark.timeout(300)
+pytestmark = pytest.mark.timeout(600)
 
 
 def test_the_page_tells_the_run(house: House) -> None:

@@ -20,7 +20,7 @@ from softkin.outside import OUTSIDE_METHODS
 from tests.conftest import HOUSE
 from tests.workflow.conftest import House
 
-pytestmark = pytest.mark.timeout(300)
+pytestmark = pytest.mark.timeout(600)
 DATASETS = ("elastica_2023_09", "finger")
 CONFIGURED = yaml.safe_load((HOUSE / "config" / "config.yaml").read_text())
 INTERVAL_STAGES = {"intervals", "score_intervals", "score_outside", "figures", "calibrated_model"}

@@ -19,7 +19,7 @@ from softkin.figures.style import (
     panels,
     sample,
 )
-from softkin.interface import EXTRAPOLATION, PAPER, TEST, DatasetResults, FigureSpec
+from softkin.interface import EXTRAPOLATION, OUTER, PAPER, TEST, DatasetResults, FigureSpec
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -48,8 +48,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
         rows = rows.assign(**rows[[TEST, EXTRAPOLATION]].clip(lower=LEAST_MM))
         axes.loglog(rows[TEST], rows[EXTRAPOLATION], color=colour, linewidth=0.8, alpha=0.6)
         for row in rows.itertuples():
-            filling = "white" if row.preset == PAPER else colour
-            axes.plot(row.test, row.extrapolation, mark, color=colour, markerfacecolor=filling, markersize=7)
+            axes.plot(row.test, row.extrapolation, mark, markersize=7, **_look(row.preset, colour))
             if row.chosen:
                 axes.plot(row.test, row.extrapolation, "o", color=BLACK, markerfacecolor="none", markersize=14)
     logarithmic(axes.xaxis)
@@ -60,8 +59,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     axes.set_ylabel("mean marker error on extrapolation (mm)")
     samples = model_samples(models, results)
     for preset in frame["preset"].unique():
-        filling = "white" if preset == PAPER else GREY
-        samples.append(sample(f"{preset} preset", color=GREY, marker="o", markerfacecolor=filling, linestyle=""))
+        samples.append(sample(f"{preset} preset", marker="o", linestyle="", **_look(preset, GREY)))
     if frame["chosen"].any():
         look = {"color": BLACK, "marker": "o", "markerfacecolor": "none", "markersize": 11, "linestyle": ""}
         samples.append(sample("chosen on train", **look))
@@ -69,6 +67,12 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     figure.legend(handles=samples, loc="outside right center", frameon=False)
     heading(figure, results, "inside and outside the training range")
     return figure
+
+
+def _look(preset: str, colour: str) -> dict[str, str]:
+    """Open with the paper's settings, full when searched; searched by outer shells with a black edge."""
+    edge = BLACK if preset == OUTER else colour
+    return {"color": colour, "markerfacecolor": "white" if preset == PAPER else colour, "markeredgecolor": edge}
 
 
 FIGURE = FigureSpec(

@@ -62,8 +62,8 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     whole: Any = figure.add_subplot(projection="3d", position=(0.01, 0.09, 0.43, free))
     _robot(whole, frame, marker)
     shown = frame[(frame["marker"] == marker) & (frame["pose"] > 0)].sort_values("pose")
-    unit, factor = _unit(shown)
     for place, row in enumerate(shown.itertuples()):
+        unit, factor = _unit(shown.iloc[[place]])
         position = (0.46 + 0.255 * (place % 2), 0.09 + free * (0.5 - 0.5 * (place // 2)), 0.25, 0.47 * free)
         axes: Any = figure.add_subplot(projection="3d", position=position)
         is_covered = _tip(axes, row, unit, factor)

@@ -40,10 +40,17 @@ def on_front(runs: pd.DataFrame) -> pd.Series:
     return pd.Series(np.logical_not(beaten.any(axis=1)), index=runs.index)
 
 
+#: What a run that is not on the Pareto front loses a tie by.
+OFF_FRONT = 1 + 1e-12
+
+
 def _both(runs: pd.DataFrame) -> pd.Series:
-    """Geometric mean of the two scores (mm) on the Pareto front, so that a factor counts the same in either."""
+    """Geometric mean of the two scores (mm), so that a factor counts the same in either: its lowest is on the Pareto
+    front.
+    """
     logarithms = np.log(runs[[CV, SHELL]].clip(lower=NEGLIGIBLE_MM)).mean(axis=1, skipna=False)
-    return np.exp(logarithms).where(on_front(runs), np.inf)
+    means = np.exp(logarithms)
+    return means.where(on_front(runs), OFF_FRONT * means)
 
 
 #: What a run is chosen by: the lowest wins.
@@ -85,12 +92,15 @@ def selection(runs: pd.DataFrame, objective: str) -> pd.DataFrame:
 def foretold(runs: pd.DataFrame, point: pd.DataFrame) -> pd.DataFrame:
     """The searched `runs` with their mean absolute errors on test and extrapolation, and for each dataset how well
     either score foretold the order of the runs on extrapolation: Spearman's rank correlation, the same in each row.
+    `on_front` says which runs no other of the dataset beats in both scores.
 
     `point` are the point metrics. A dataset with one run has no correlation.
     """
     key = ["dataset", "model", "preset"]
     errors = point.pivot_table(index=key, columns="subset", values="mae_mm")
     result = runs.copy()
+    fronts = [on_front(pool) for _, pool in runs.groupby("dataset")]
+    result["on_front"] = pd.concat(fronts).reindex(runs.index)
     for subset in (TEST, EXTRAPOLATION):
         result[f"{subset}_mae_mm"] = errors[subset].reindex(pd.MultiIndex.from_frame(runs[key])).to_numpy()
     for name, score in (("cv", CV), ("shell", SHELL)):

@@ -67,11 +67,15 @@ def interval_metrics() -> pd.DataFrame:
         key = {"dataset": dataset, "subset": subset, "model": model, "preset": preset}
         key |= {"interval_method": method, "confidence_level": level}
         marginal = "marginal" if promised else "no guarantee"
-        for coordinate, coverage in (("m1_x", level), ("m1_y", 0.1), ("mean_informative", level)) * (not is_region):
+        # z never moves: it is always covered, and no promise is counted for it.
+        coordinates = (("m1_x", level), ("m1_y", 0.1), ("m1_z", 1.0), ("mean_informative", level))
+        for coordinate, coverage in coordinates * (not is_region):
             band = (np.nan, np.nan) if coordinate == "mean_informative" else (level - 0.05, level + 0.05)
+            holm = 0.5 if coordinate in ("m1_x", "m1_y") else np.nan
             rows.append(
                 key
                 | {"coordinate": coordinate, "coverage": coverage, "mean_width_mm": 2.0, "winkler_mm": 3.0}
+                | {"coverage_p_value_holm": holm}
                 | {"guarantee": marginal, "coverage_low": band[0], "coverage_high": band[1], "size_mm": np.nan}
             )
         joint = {"coordinate": "joint", "coverage": 0.7, "mean_width_mm": np.nan, "winkler_mm": np.nan}

@@ -25,6 +25,7 @@ def test_each_objective_has_its_own_choice_and_the_runner_up_is_another_model() 
     assert chosen["model"].to_dict() == {"interpolation": "gp", "extrapolation": "lr", "both": "mlp"}
     assert chosen["runner_up"].to_dict() == {"interpolation": "mlp", "extrapolation": "mlp", "both": "gp"}
     assert chosen.loc["interpolation", "runner_up_ratio"] == 2.0
+    assert chosen.loc["both", "runner_up_ratio"] == pytest.approx(3 / 5**0.5)
     assert chosen.loc["interpolation", "pool"] == "gp mlp lr"
     assert deployed(selection(pool, "extrapolation"))["model"].tolist() == ["lr"]
 
