@@ -22,14 +22,19 @@ from tests.workflow.conftest import House
 
 pytestmark = pytest.mark.timeout(600)
 DATASETS = ("elastica_2023_09", "finger")
-CONFIGURED = yaml.safe_load((HOUSE / "config" / "config.yaml").read_text())
+CONFIGURED, SMALL = (yaml.safe_load((HOUSE / "config" / f"{name}.yaml").read_text()) for name in ("config", "test"))
+#: Of the small run.
+POOL = {name: MODELS[name] for name in SMALL["models"]}
+CHEAP = [name for name, spec in POOL.items() if spec.is_cheap]
+WITH_SPREAD = [name for name, spec in POOL.items() if spec.spread]
+PREDICTIVE = [name for name, spec in POOL.items() if spec.is_predictive]
 INTERVAL_STAGES = {"intervals", "score_intervals", "score_outside", "figures", "calibrated_model"}
 TIMINGS = ["fit_seconds", "predict_us_per_row"]
 
 
 def test_point_metrics_have_a_row_for_everything(house: House) -> None:
     table = pd.read_csv(house.work / "results" / "tables" / "point_metrics.csv")
-    wanted = {(d, s, m, p) for d in DATASETS for s in SUBSETS for m in MODELS for p in PRESETS}
+    wanted = {(d, s, m, p) for d in DATASETS for s in SUBSETS for m in POOL for p in PRESETS}
     assert set(table[["dataset", "subset", "model", "preset"]].itertuples(index=False, name=None)) == wanted
     assert len(table) == len(wanted)
     columns = "rmse_mm,mae_mm,r2,mape_percent,rmse_informative_mm,mae_informative_mm,r2_informative,euclidean_mean_mm"
@@ -45,7 +50,7 @@ def test_selection_follows_the_score_of_its_objective(house: House, objective: s
     for dataset in DATASETS:
         scores = {
             (model, preset): read_json(house.work / "results" / dataset / model / preset / "parameters.json")[score]
-            for model in MODELS
+            for model in POOL
             for preset in SEARCHED
         }
         chosen = selection.loc[(dataset, objective)]
@@ -58,7 +63,7 @@ def test_the_paper_tables_are_laid_out_and_cut_rows_are_marked(house: House) -> 
     for part in ("### Table 2", "### Table 5: comparison on FINGER", "not in the paper", "left rows out"):
         assert part in text
     comparison = pd.read_csv(house.work / "results" / "tables" / "published_comparison.csv")
-    assert len(comparison) == 64
+    assert len(comparison) == 2 * 4 * len(set(POOL) & {"lr", "lasso", "rf", "gb", "xgb", "svr", "gp", "mlp"})
     assert set(comparison["paper_verdict"]) | set(comparison["tuned_verdict"]) <= {"reproduced", "better", "worse"}
     assert comparison["note"].str.contains("left rows out").all()
 
@@ -74,10 +79,18 @@ def test_interval_metrics_have_a_row_for_everything(house: House) -> None:
     keys = ["dataset", "subset", "model", "preset", "interval_method", "coordinate", "confidence_level"]
     assert not table.duplicated(keys).any()
     rows = table["interval_method"].value_counts().to_dict()
-    around = {"predictions": 16, "spreads": 6, "predictive": 4, "quantiles": 4, "folds": 12, "resamples": 12}
-    around["shells"] = 2  # the paper's run and the chosen one
-    expected = {name: 2 * 2 * around[INTERVAL_METHODS[name].on] * 6 * 3 for name in CONFIGURED["interval_methods"]}
-    assert rows == expected | dict.fromkeys(CONFIGURED["regions"], 2 * 2 * 16 * 3)
+    runs, presets = len(POOL) * len(PRESETS), len(PRESETS)
+    around = {"predictions": runs, "spreads": presets * len(WITH_SPREAD), "predictive": presets * len(PREDICTIVE)}
+    around |= {
+        "quantiles": 2 * 2,
+        "folds": 2 * len(CHEAP),
+        "resamples": 2 * len(CHEAP),
+    }  # in the presets paper and tuned
+    on_shells = [name for name in CONFIGURED["interval_methods"] if INTERVAL_METHODS[name].on == "shells"]
+    assert len({rows.pop(name) for name in on_shells}) == 1
+    rest = [name for name in CONFIGURED["interval_methods"] if name not in on_shells]
+    expected = {name: 2 * 2 * around[INTERVAL_METHODS[name].on] * 6 * 3 for name in rest}
+    assert rows == expected | dict.fromkeys(CONFIGURED["regions"], 2 * 2 * runs * 3)
     engines = table[table["interval_method"].str.startswith("scp")].pivot(
         index=[key for key in keys if key != "interval_method"], columns="interval_method", values="winkler_mm"
     )
@@ -89,6 +102,12 @@ def test_interval_metrics_have_a_row_for_everything(house: House) -> None:
     choice = pd.read_csv(house.work / "results" / "tables" / "interval_choice.csv")
     assert choice.groupby("dataset")["chosen"].sum().to_dict() == dict.fromkeys(DATASETS, 1)
     assert choice["test_winkler_mm"].gt(0).all()
+    deployed = choice[choice["deployed"]]
+    assert deployed["outside"].tolist() == ["auto", "auto"]
+    keys = ["dataset", "model", "preset", "confidence_level"]
+    auto = table[(table["interval_method"] == "auto") & (table["coordinate"] == "mean_informative")]
+    auto = auto[auto["subset"] == "extrapolation"].set_index(keys)["coverage"]
+    np.testing.assert_array_equal(deployed["extrapolation_coverage"], auto.loc[deployed.set_index(keys).index])
     assert published["explanation"].str.contains("nearest single coordinate").all()
 
 
@@ -97,7 +116,8 @@ def test_every_interval_outside_train_stands_beside_the_oracle(house: House) -> 
     runs = table.groupby("dataset")[["model", "preset"]].apply(lambda rows: set(map(tuple, rows.to_numpy())))
     for dataset in DATASETS:
         assert ("gb", "paper") in runs[dataset]
-        assert len(runs[dataset]) == 2
+        assert ("huber", "outer") in runs[dataset]
+        assert len(runs[dataset]) <= 3
         assert (house.work / "results" / dataset / "figures" / "outside.png").is_file()
     assert set(OUTSIDE_METHODS) | {"scp_mapie", "scp_distance", "auto"} <= set(table["interval_method"])
     scored = table[table["refused"].isna()]
@@ -130,22 +150,23 @@ def test_the_store_holds_a_child_run_per_model_and_preset(house: House) -> None:
         experiment = client.get_experiment_by_name(dataset)
         runs = client.search_runs([experiment.experiment_id], max_results=1000)
         nested = [run for run in runs if run.data.tags["kind"] == "intervals"]
-        # SCP by two engines and by distance, predictive system and regions on every run; by spread on three models,
-        # the own interval on two; CV+ and jackknife+ on eight models, QR and CQR on two learners, in two presets each;
-        # four on shells of the paper's run, the chosen one and the robust one
+        # SCP by two engines and by distance, predictive system and regions on every run; by spread and the own
+        # interval on models that have one; CV+ and jackknife+ on cheap models, QR and CQR on two learners, in two
+        # presets each; four on shells of the paper's run, the chosen one and the robust one
         with np.load(house.work / "results" / dataset / "shells.npz") as archive:
             on_shells = {name.rsplit("/", 1)[0] for name in archive.files if "/" in name}
         assert {"gb/paper", "huber/outer"} <= on_shells
         assert len(on_shells) <= 3
-        assert len(nested) == 5 * 30 + (3 + 2) * 3 + (8 + 8) * 2 + 2 * 4 + 4 * len(on_shells)
+        around_models = 5 * len(POOL) * 3 + (len(WITH_SPREAD) + len(PREDICTIVE)) * 3 + 2 * len(CHEAP) * 2
+        assert len(nested) == around_models + 2 * 4 + 4 * len(on_shells)
         assert {run.data.tags["mlflow.parentRunId"] for run in nested} <= {run.info.run_id for run in runs}
         parents = [run for run in runs if "mlflow.parentRunId" not in run.data.tags]
         assert len(parents) == 1
         children = [run for run in runs if run.data.tags.get("mlflow.parentRunId") == parents[0].info.run_id]
         children = [run for run in children if run.data.tags["kind"] == "model"]
         names = {(run.data.tags["model"], run.data.tags["preset"]) for run in children}
-        assert names == {(model, preset) for model in MODELS for preset in PRESETS}
-        assert len(children) == 30
+        assert names == {(model, preset) for model in POOL for preset in PRESETS}
+        assert len(children) == len(names)
 
 
 def test_a_second_run_does_nothing(house: House) -> None:
@@ -168,7 +189,7 @@ def test_editing_a_model_reruns_its_jobs_and_no_others(house: House) -> None:
         jobs = house.jobs()
     finally:
         file.write_text(original)
-    jobs = [job for job in jobs if job[0] not in INTERVAL_STAGES | {"refit", "refit_shells"}]
+    jobs = [job for job in jobs if job[0] not in INTERVAL_STAGES | {"refit", "refit_shells", "refit_spaces"}]
     per_model = {job for job in jobs if job[0] in ("tune", "fit_paper", "fit_tuned", "predict")}
     assert {rule for rule, _ in per_model} == {"tune", "fit_paper", "fit_tuned", "predict"}
     assert all("model=svr" in wildcards for _, wildcards in per_model)
@@ -188,6 +209,7 @@ def test_editing_a_model_reruns_its_jobs_and_no_others(house: House) -> None:
         ("regions/balls.py", {"score_intervals", "figures", "tables", "track"}),
         ("refitting.py", INTERVAL_STAGES | {"refit", "refit_shells", "tables", "track"}),
         ("growth.py", INTERVAL_STAGES | {"tables", "track"}),
+        ("refitting_spaces.py", {"refit_spaces", "score", "figures", "tables", "track"}),
         ("outside/adaptive.py", {"score_outside", "figures", "tables", "track"}),
         ("metrics/interval.py", INTERVAL_STAGES | {"tables", "track"}),
     ],
@@ -207,7 +229,7 @@ def test_editing_a_later_stage_refits_nothing(house: House, module: str, rules: 
 def test_more_trials_retune_and_keep_the_paper_preset(house: House, tmp_path: Path) -> None:
     (tmp_path / "more.yaml").write_text("tuning: {n_trials: 6}")
     jobs = house.jobs(tmp_path / "more.yaml")
-    assert sum(rule == "tune" for rule, _ in jobs) == 16
+    assert sum(rule == "tune" for rule, _ in jobs) == 2 * len(POOL)
     assert "fit_paper" not in {rule for rule, _ in jobs}
 
 
@@ -228,7 +250,7 @@ def test_a_typo_is_told_and_stops_the_run(house: House, options: list[str], says
 
 def test_results_do_not_depend_on_the_number_of_cores_or_the_run(house: House, tmp_path: Path) -> None:
     """Another folder, one core: the same tables but for timings."""
-    options = ["--config", "models=[lr, rf, xgb, gp]", "datasets=[finger]"]
+    options = ["--config", "models=[lr, rf, gb, gp]", "datasets=[finger]"]
     done = house.snakemake("results/finger/point_metrics.csv", *options, cores=1, work=tmp_path)
     assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
     name = Path("results") / "finger" / "point_metrics.csv"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
@@ -69,7 +69,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     return figure
 
 
-def _look(preset: str, colour: str) -> dict[str, str]:
+def _look(preset: str, colour: str) -> dict[str, Any]:
     """Open with the paper's settings, full when searched; searched by outer shells with a black edge."""
     edge = BLACK if preset == OUTER else colour
     return {"color": colour, "markerfacecolor": "white" if preset == PAPER else colour, "markeredgecolor": edge}

@@ -22,7 +22,7 @@ def test_four_poses_from_one_end_to_the_other_have_their_boxes(results: DatasetR
     np.testing.assert_allclose(rows["predicted_y"] - rows["true_y"], 1.0)
 
 
-@pytest.mark.parametrize(("factor", "unit"), [(1.0, "mm"), (1e-4, "µm"), (1e-7, "nm")])
+@pytest.mark.parametrize(("factor", "unit"), [(1.0, "mm"), (1e-3, "µm"), (1e-6, "nm")])
 def test_what_is_seen_closely_is_told_in_a_fitting_unit(results: DatasetResults, factor: float, unit: str) -> None:
     rows = frame(results)
     for axis in "xyz":
@@ -30,8 +30,9 @@ def test_what_is_seen_closely_is_told_in_a_fitting_unit(results: DatasetResults,
             rows[f"{name}_{axis}"] = rows[f"predicted_{axis}"] + factor * (
                 rows[f"{name}_{axis}"] - rows[f"predicted_{axis}"]
             )
+    rows.loc[rows["pose"] == 4, "true_x"] = rows.loc[rows["pose"] == 4, "predicted_x"] + 20.0
     labels = [axes.get_xlabel() for axes in plot(rows, results).axes]
-    assert labels == ["x (mm)"] + [f"x ({unit})"] * 4
+    assert labels == ["x (mm)", *[f"x ({unit})"] * 3, "x (mm)"]
 
 
 def test_missed_poses_and_infinite_boxes_are_told(results: DatasetResults) -> None:
