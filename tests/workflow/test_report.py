@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from softkin.models import MODELS
 from tests.workflow.conftest import House
+from tests.workflow.test_run import POOL
 
 pytestmark = pytest.mark.timeout(600)
 
@@ -16,7 +16,7 @@ def test_the_page_tells_the_run(house: House) -> None:
     text = (house.work / "results" / "report.html").read_text(encoding="utf-8")
     assert len(text.encode()) < 10_000_000
     assert "campaign test" in text
-    assert all(spec.title in text for spec in MODELS.values())
+    assert all(spec.title in text for spec in POOL.values())
     assert text.count('<article class="robot">') == 2
     assert text.count('class="badge rows-left-out"') > 100  # config/test.yaml cuts every subset
     drawn = list((house.work / "results").glob("*/figures/*.png"))
