@@ -10,13 +10,15 @@ import pandas as pd
 from softkin.datasets.table import read_subset
 from softkin.figures.reading import predicted, shown_coordinate
 from softkin.figures.style import BLACK, LIGHT, LOOKS, PAGE, heading, legend_below, panels, sample
-from softkin.interface import EXTRAPOLATION, PAPER, TEST, DatasetResults, FigureSpec
+from softkin.interface import EXTRAPOLATION, OUTER, PAPER, TEST, TUNED, DatasetResults, FigureSpec
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 N_COLUMNS = 4
+#: Of the searched presets, which to show where: the first that was run.
+MEANT_FOR = {TEST: (TUNED, OUTER), EXTRAPOLATION: (OUTER, TUNED)}
 #: A panel shows this share of the true range beyond it, at either end.
 MARGIN = 0.3
 OFF_SCALE: dict[str, Any] = {"fontsize": 6.5, "bbox": {"color": "white", "alpha": 0.8, "pad": 1.0}}
@@ -52,7 +54,8 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
             if place >= len(models):
                 axis.set_axis_off()
                 continue
-            _draw(axis, frame[(frame["model"] == models[place]) & (frame["subset"] == subset)])
+            mine = frame[(frame["model"] == models[place]) & (frame["subset"] == subset)]
+            _draw(axis, mine[mine["preset"].isin(_shown_presets(frame, subset))])
             axis.tick_params(labelleft=column == 0)
             axis.locator_params(nbins=4)
             if row == 0:
@@ -62,13 +65,19 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
             if column == 0:
                 axis.set_ylabel(f"{subset}\n{frame['coordinate'].iloc[0]} (mm)")
     samples = [sample("true position", color=BLACK, linewidth=1.2)]
-    for preset in frame["preset"].unique():
-        colour = LIGHT if preset == PAPER else LOOKS[models[0]][0]
-        meaning = "predicted, paper preset" if preset == PAPER else "predicted, tuned (in the model's colour)"
+    for is_paper in dict.fromkeys(preset == PAPER for preset in frame["preset"]):
+        colour = LIGHT if is_paper else LOOKS[models[0]][0]
+        meaning = "predicted, paper preset" if is_paper else "predicted, searched (in the model's colour)"
         samples.append(sample(meaning, color=colour, linestyle="", marker="."))
     legend_below(figure, samples, len(samples))
     heading(figure, results, f"true and predicted {frame['coordinate'].iloc[0]}")
     return figure
+
+
+def _shown_presets(frame: pd.DataFrame, subset: str) -> set[str]:
+    """The paper's, and of those searched the one meant for such commands, where it was run."""
+    run = set(frame["preset"])
+    return (run & {PAPER}) | {next((preset for preset in MEANT_FOR[subset] if preset in run), PAPER)}
 
 
 def _draw(axes: Axes, rows: pd.DataFrame) -> None:
@@ -92,7 +101,8 @@ FIGURE = FigureSpec(
     "position_curves",
     "Position curves",
     "True position (line) of the coordinate that moves furthest, rows sorted by it, and what each model predicts "
-    "(dots) on test and on extrapolation.",
+    "(dots) on test and on extrapolation: with the paper's settings, and with those searched for such commands, of the "
+    "preset tuned on test and outer on extrapolation.",
     frame,
     plot,
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pandas as pd
 
 from softkin.figures.position_curves import frame, plot
 from softkin.interface import DatasetResults
@@ -25,3 +26,16 @@ def test_predictions_off_the_scale_are_counted(results: DatasetResults) -> None:
     rows.loc[exploded, "predicted_mm"] = 1e6
     texts = [text.get_text() for axes in plot(rows, results).axes for text in axes.texts]
     assert texts == ["tuned: 7 off the scale"]
+
+
+def test_what_was_searched_for_such_commands_is_shown_and_the_legend_says_it_once(
+    results: DatasetResults,
+) -> None:
+    rows = frame(results)
+    outer = rows[rows["preset"] == "tuned"].assign(preset="outer", predicted_mm=1.0)
+    figure = plot(pd.concat([rows, outer]), results)
+    assert len({text.get_text() for text in figure.legends[0].texts}) == len(figure.legends[0].texts) == 3
+    test, extrapolation = ([set(line.get_ydata()) for line in figure.axes[place].lines] for place in (0, 2))
+    assert {1.0} not in test
+    assert {1.0} in extrapolation
+    assert len(test) == len(extrapolation) == 3  # the paper's, the searched, the truth
