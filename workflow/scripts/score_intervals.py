@@ -32,10 +32,12 @@ with job(snakemake.log[0], f"score intervals {dataset}"):
         evidences=evidences,
         output=snakemake.output.metrics,
     )
+    # Those made for commands outside train have nothing to show on test.
+    inside = {name: path for name, path in intervals.items() if INTERVAL_METHODS[name].on != "shells"}
     conditional_coverage(
         given.table,
         dataset=dataset,
-        intervals=intervals,
+        intervals=inside,
         shown=shown_runs(given.choice),
         confidence_levels=params.confidence_levels,
         seed=params.seed,

@@ -121,7 +121,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
         label = f"{PAPERS_LEVEL:.0%} interval of some"
         samples.append(sample(label, color=BLACK, marker="s", fillstyle="none", linestyle=""))
     legend_below(figure, samples, 3)
-    heading(figure, results, "where it is and where it is believed to be")
+    heading(figure, results, "where it is, and where believed")
     return figure
 
 
