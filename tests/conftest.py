@@ -53,6 +53,7 @@ def four_subsets(sizes: dict[str, int], **arm: int) -> dict[str, Samples]:
     }
 
 
+@pytest.hookimpl(tryfirst=True)  # before xdist looks for groups
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """The workflow tests share one long run: with `-n` they stay together, and start first."""
     workflow = [item for item in items if "workflow" in item.path.relative_to(HOUSE).parts]
