@@ -53,13 +53,9 @@ def four_subsets(sizes: dict[str, int], **arm: int) -> dict[str, Samples]:
     }
 
 
-@pytest.hookimpl(tryfirst=True)  # before xdist looks for groups
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """The workflow tests share one long run: with `-n` they stay together, and start first."""
-    workflow = [item for item in items if "workflow" in item.path.relative_to(HOUSE).parts]
-    for item in workflow:
-        item.add_marker(pytest.mark.xdist_group("workflow"))
-    items.sort(key=lambda item: item not in workflow)
+    """The workflow tests wait for a long run: they start first."""
+    items.sort(key=lambda item: item.get_closest_marker("xdist_group") is None)
 
 
 @pytest.fixture
