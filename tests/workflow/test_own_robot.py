@@ -5,11 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 
 import pandas as pd
+import pytest
 import yaml
 
 from softkin.files import read_json
 from tests.conftest import HOUSE
 from tests.workflow.conftest import House, copy_house
+
+pytestmark = [pytest.mark.timeout(600), pytest.mark.xdist_group("workflow")]
 
 TABLE = "results/arm/table.parquet"
 
