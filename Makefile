@@ -4,7 +4,7 @@ CORES ?= 2
 BIN := .venv/bin
 export MLFLOW_DISABLE_TELEMETRY := true
 
-.PHONY: run unlock new-robot test test-run lint ui store report gallery snakemake-report campaigns benchmark benchmark-large coverage standins
+.PHONY: run unlock new-robot test test-workflow test-others test-run lint ui store report gallery snakemake-report campaigns benchmark benchmark-large coverage standins
 .PHONY: environment clean ui-screenshot
 
 run: .venv/installed
@@ -20,7 +20,13 @@ new-robot: .venv/installed
 
 # The workflow tests, which wait for one run of the workflow, beside all others.
 test: .venv/installed
-	$(BIN)/pytest -m "not slow" -n $(CORES) --dist loadgroup
+	$(MAKE) --no-print-directory -j 2 test-workflow test-others
+
+test-workflow: .venv/installed
+	$(BIN)/pytest -m "not slow" tests/workflow
+
+test-others: .venv/installed
+	$(BIN)/pytest -m "not slow" --ignore tests/workflow
 
 test-run: .venv/installed
 	$(BIN)/snakemake --cores $(CORES) --directory results/test-run --configfile config/test.yaml

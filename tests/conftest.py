@@ -53,11 +53,6 @@ def four_subsets(sizes: dict[str, int], **arm: int) -> dict[str, Samples]:
     }
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """The workflow tests wait for a long run: they start first."""
-    items.sort(key=lambda item: item.get_closest_marker("xdist_group") is None)
-
-
 @pytest.fixture
 def samples() -> Samples:
     return bending_arm(120)

@@ -12,7 +12,7 @@ from softkin.files import read_json
 from tests.conftest import HOUSE
 from tests.workflow.conftest import House, copy_house
 
-pytestmark = [pytest.mark.timeout(600), pytest.mark.xdist_group("workflow")]
+pytestmark = pytest.mark.timeout(600)
 
 TABLE = "results/arm/table.parquet"
 

@@ -9,7 +9,7 @@ import pytest
 from tests.workflow.conftest import House
 from tests.workflow.test_run import POOL
 
-pytestmark = [pytest.mark.timeout(600), pytest.mark.xdist_group("workflow")]
+pytestmark = pytest.mark.timeout(600)
 
 
 def test_the_page_tells_the_run(house: House) -> None:

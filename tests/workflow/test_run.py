@@ -20,7 +20,7 @@ from softkin.outside import OUTSIDE_METHODS
 from tests.conftest import HOUSE
 from tests.workflow.conftest import House
 
-pytestmark = [pytest.mark.timeout(600), pytest.mark.xdist_group("workflow")]
+pytestmark = pytest.mark.timeout(600)
 DATASETS = ("elastica_2023_09", "finger")
 CONFIGURED, SMALL = (yaml.safe_load((HOUSE / "config" / f"{name}.yaml").read_text()) for name in ("config", "test"))
 #: Of the small run.

@@ -26,7 +26,7 @@ from softkin.tracking.store import KEY, PARENT
 from tests.conftest import HOUSE
 from tests.workflow.conftest import House
 
-pytestmark = [pytest.mark.timeout(600), pytest.mark.xdist_group("workflow")]
+pytestmark = pytest.mark.timeout(600)
 
 
 def files_below(folder: Path, *, hashed: bool) -> dict[str, str]:

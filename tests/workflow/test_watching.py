@@ -11,7 +11,7 @@ import pytest
 
 from tests.workflow.conftest import House, copy_house
 
-pytestmark = [pytest.mark.timeout(600), pytest.mark.xdist_group("workflow")]
+pytestmark = pytest.mark.timeout(600)
 TARGET = "results/finger/lr/tuned/fit.json"
 
 
