@@ -64,5 +64,5 @@ def test_only_train_is_tuned_on(name: str, table: Path, tmp_path: Path) -> None:
         found.append(read_json(folder / "parameters.json"))
         trials = pd.read_csv(folder / "trials.csv")
         assert len(trials) == 3
-        assert found[-1]["score_mm"] == pytest.approx(trials["cv_pinball_mm"].min())
+        assert found[-1]["cv_pinball_mm"] == pytest.approx(trials["score_mm"].min())
     assert {**found[0], "cpu_seconds": 0} == {**found[1], "cpu_seconds": 0}

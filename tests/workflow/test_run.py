@@ -207,7 +207,7 @@ def test_editing_a_model_reruns_its_jobs_and_no_others(house: House) -> None:
         ("tracking/store.py", {"track"}),
         ("intervals/split_conformal_crepes.py", INTERVAL_STAGES | {"tables", "track"}),
         ("regions/balls.py", {"score_intervals", "figures", "tables", "track"}),
-        ("refitting.py", INTERVAL_STAGES | {"refit", "refit_shells", "tables", "track"}),
+        ("refitting.py", INTERVAL_STAGES | {"refit", "refit_shells", "refit_spaces", "score", "tables", "track"}),
         ("growth.py", INTERVAL_STAGES | {"tables", "track"}),
         ("refitting_spaces.py", {"refit_spaces", "score", "figures", "tables", "track"}),
         ("outside/adaptive.py", {"score_outside", "figures", "tables", "track"}),

@@ -12,7 +12,7 @@ import pytest
 from tests.workflow.conftest import House, copy_house
 
 pytestmark = pytest.mark.timeout(600)
-TARGET = "results/finger/lr/tuned/fit.json"
+TARGET = "results/finger/gb/tuned/fit.json"
 
 
 @pytest.fixture
@@ -45,12 +45,12 @@ def test_a_terminal_shows_one_quiet_screen(new_house: House) -> None:
     shown = on_a_terminal(new_house, TARGET)
     assert "softkin test · 0 of 4 jobs · 0 s used · no estimate yet" in shown
     assert "\033[J" in shown
-    running = [line for line in shown.splitlines() if line.startswith("  tune  finger  lr")]
+    running = [line for line in shown.splitlines() if line.startswith("  tune  finger  gb")]
     assert any("trial" in line and "of 4" in line for line in running)
     assert "localrule" not in shown
     assert "Finished jobid" not in shown
-    assert "tune finger lr: 4 of 4 trials" not in shown  # a job tells its log alone
-    assert "4 of 4 trials" in (new_house.work / "results" / "logs" / "tune" / "finger" / "lr.log").read_text()
+    assert "tune finger gb: 4 of 4 trials" not in shown  # a job tells its log alone
+    assert "4 of 4 trials" in (new_house.work / "results" / "logs" / "tune" / "finger" / "gb.log").read_text()
     assert shown.split("\033[J")[-1].startswith("softkin test: 4 of 4 jobs in ")
 
 
@@ -60,14 +60,14 @@ def test_a_pipe_gets_plain_lines_and_the_next_run_an_estimate(new_house: House) 
     assert "\033" not in done.stdout + done.stderr
     lines = done.stderr.splitlines()
     assert [line.split("] ")[1].split(":")[0] for line in lines if line.startswith("[") and " jobs · " in line] == [
-        *("retrieve finger", "prepare finger", "tune finger lr", "fit tuned finger lr")
+        *("retrieve finger", "prepare finger", "tune finger gb", "fit tuned finger gb")
     ]
-    assert "tune finger lr: 4 of 4 trials, best" in done.stderr
+    assert "tune finger gb: 4 of 4 trials, best" in done.stderr
     assert "localrule" not in done.stderr
-    benchmark = new_house.work / "results" / "benchmarks" / "fit_tuned" / "finger" / "lr.tsv"
+    benchmark = new_house.work / "results" / "benchmarks" / "fit_tuned" / "finger" / "gb.tsv"
     benchmark.write_text("s\th:m:s\n600.0\t0:10:00\n")
     again = new_house.snakemake(TARGET, "--forcerun", "tune")
-    told = [line for line in again.stderr.splitlines() if "] tune finger lr: " in line]
+    told = [line for line in again.stderr.splitlines() if "] tune finger gb: " in line]
     assert len(told) == 1
     assert told[0].startswith("[1 of 2 jobs")
     assert "about 10 min left" in told[0]
