@@ -86,7 +86,7 @@ GATHERERS |= {"watching/lines.py", "watching/view.py"}
 #: The page is gathered from its parts.
 GATHERERS |= {
     f"report/{name}.py"
-    for name in ("building", "grid", "headline", "jobs", "outside", "provenance", "published", "scores")
+    for name in ("building", "cards", "grid", "headline", "jobs", "outside", "provenance", "published", "scores")
 }
 
 FIGURES = {module.as_posix() for module in MODULES if module.parts[0] == "figures"}

@@ -5,6 +5,7 @@ rule report:
         tables=expand("results/tables/{name}", name=TABLES),
         descriptions=of_every_dataset("results/{dataset}/dataset.json"),
         data_cards=of_every_dataset("results/{dataset}/data_card.json"),
+        card_pages=of_every_dataset("results/{dataset}/data_card.md"),
         figures=of_every_dataset("results/{dataset}/figures"),
         campaign_figures="results/tables/figures",
         records=[record for _, _, records in timed_jobs() for record in records],

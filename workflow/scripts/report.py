@@ -18,6 +18,7 @@ with job(snakemake.log[0], "report"):
         tables=given.tables,
         descriptions=dict(zip(datasets, given.descriptions, strict=True)),
         data_cards=dict(zip(datasets, given.data_cards, strict=True)),
+        card_pages=dict(zip(datasets, given.card_pages, strict=True)),
         figures=dict(zip(datasets, given.figures, strict=True)),
         campaign_figures=given.campaign_figures,
         jobs=[Job(*run, Path(benchmark), tuple(map(Path, records))) for run, benchmark, records in params.jobs],

@@ -15,6 +15,7 @@ from pandas.errors import EmptyDataError
 from softkin.files import read_json, write_text
 from softkin.interface import SUBSETS, SoftkinError
 from softkin.report import published
+from softkin.report.cards import card_page
 from softkin.report.grid import Grid, share_text
 from softkin.report.headline import robot_cards
 from softkin.report.images import pictures
@@ -37,6 +38,7 @@ def build_report(
     tables: Sequence[str | Path],
     descriptions: Mapping[str, str | Path],
     data_cards: Mapping[str, str | Path],
+    card_pages: Mapping[str, str | Path],
     figures: Mapping[str, str | Path],
     campaign_figures: str | Path,
     jobs: Sequence[Job],
@@ -48,9 +50,9 @@ def build_report(
 ) -> None:
     """Write the page `report`, beside which the folders of `figures` lie.
 
-    `tables` are files of results/tables; `descriptions`, `data_cards` (may be empty) and `figures` (folders) are by
-    dataset, `campaign_figures` is the folder of those across datasets; `config` is the whole checked configuration;
-    `citation` is CITATION.cff at the top of the checkout whose commit is told.
+    `tables` are files of results/tables; `descriptions`, `data_cards` (JSON), `card_pages` (Markdown; both may be
+    empty) and `figures` (folders) are by dataset, `campaign_figures` is the folder of those across datasets; `config`
+    is the whole checked configuration; `citation` is CITATION.cff at the top of the checkout whose commit is told.
 
     Raises:
         SoftkinError: the page would be larger than 10 MB.
@@ -79,6 +81,7 @@ def build_report(
             verdicts=_verdicts(frames),
             data=data_grid(abouts, sources, marks),
             data_cards=cards,
+            card_pages={dataset: card_page(path) for dataset, path in card_pages.items()},
             scores=_scores(frames, model_titles, interval_titles, marks),
             published=_published(frames, model_titles, interval_titles, marks),
             slowest=slowest_grid(times, model_titles),

@@ -160,6 +160,8 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Results:
     sources["arm"]["notes"] = {"test": NOTE}
     card = folder / "arm" / "data_card.json"
     write_json(card, CARD)
+    table = "| subset | rows <b> |\n| --- | --- |\n| test | 40 |\n"
+    card.with_suffix(".md").write_text(f"# Card of ARM <made up>\n\n## The rows\n\n{table}")
     benchmark, record = folder / "benchmarks" / "gp.tsv", folder / "parameters.json"
     benchmark.parent.mkdir()
     benchmark.write_text("s\tmax_rss\tcpu_time\n75.5\t200\t60\n")
@@ -181,6 +183,7 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Results:
         "tables": tables,
         "descriptions": {dataset: folder / dataset / "dataset.json" for dataset in ROBOTS},
         "data_cards": {"arm": card},
+        "card_pages": {"arm": card.with_suffix(".md")},
         "figures": {dataset: folder / dataset / "figures" for dataset in ROBOTS},
         "campaign_figures": folder / "tables" / "figures",
         "jobs": [

@@ -131,3 +131,13 @@ def test_a_page_too_large_to_send_is_refused(results: Results, monkeypatch: pyte
     with pytest.raises(SoftkinError, match=r"large\.html.*would have .* MB(.|\n)*mend"):
         results.build("large.html")
     assert not (results.folder / "large.html").exists()
+
+
+def test_the_whole_data_card_stands_in_the_page_and_its_markup_is_text(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    card = re.search(r'<details class="whole-card">.*?</details>', text, re.DOTALL)
+    assert card
+    assert "<h5>The rows</h5>" in card[0]
+    assert "<td>40</td>" in card[0]
+    assert "rows &lt;b&gt;" in card[0]
+    assert "Card of ARM" not in text
