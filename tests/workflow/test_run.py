@@ -22,8 +22,7 @@ from tests.workflow.conftest import House
 
 pytestmark = pytest.mark.timeout(600)
 DATASETS = ("elastica_2023_09", "finger")
-CONFIGURED, SMALL = (yaml.safe_load((HOUSE / "config" / f"{name}.yaml").read_text()) for name in ("config", "test"))
-#: Of the small run.
+SMALL = yaml.safe_load((HOUSE / "config" / "test.yaml").read_text())
 POOL = {name: MODELS[name] for name in SMALL["models"]}
 CHEAP = [name for name, spec in POOL.items() if spec.is_cheap]
 WITH_SPREAD = [name for name, spec in POOL.items() if spec.spread]
@@ -86,11 +85,11 @@ def test_interval_metrics_have_a_row_for_everything(house: House) -> None:
         "folds": 2 * len(CHEAP),
         "resamples": 2 * len(CHEAP),
     }  # in the presets paper and tuned
-    on_shells = [name for name in CONFIGURED["interval_methods"] if INTERVAL_METHODS[name].on == "shells"]
+    on_shells = [name for name in SMALL["interval_methods"] if INTERVAL_METHODS[name].on == "shells"]
     assert len({rows.pop(name) for name in on_shells}) == 1
-    rest = [name for name in CONFIGURED["interval_methods"] if name not in on_shells]
+    rest = [name for name in SMALL["interval_methods"] if name not in on_shells]
     expected = {name: 2 * 2 * around[INTERVAL_METHODS[name].on] * 6 * 3 for name in rest}
-    assert rows == expected | dict.fromkeys(CONFIGURED["regions"], 2 * 2 * runs * 3)
+    assert rows == expected | dict.fromkeys(SMALL["regions"], 2 * 2 * runs * 3)
     engines = table[table["interval_method"].str.startswith("scp")].pivot(
         index=[key for key in keys if key != "interval_method"], columns="interval_method", values="winkler_mm"
     )
@@ -150,15 +149,15 @@ def test_the_store_holds_a_child_run_per_model_and_preset(house: House) -> None:
         experiment = client.get_experiment_by_name(dataset)
         runs = client.search_runs([experiment.experiment_id], max_results=1000)
         nested = [run for run in runs if run.data.tags["kind"] == "intervals"]
-        # SCP by two engines and by distance, predictive system and regions on every run; by spread and the own
-        # interval on models that have one; CV+ and jackknife+ on cheap models, QR and CQR on two learners, in two
-        # presets each; four on shells of the paper's run, the chosen one and the robust one
+        # SCP by two engines and by distance, and regions, on every run; by spread and the own interval on models that
+        # have one; CV+ on cheap models, QR and CQR on two learners, in two presets each; two on shells of the paper's
+        # run, the chosen one and the robust one
         with np.load(house.work / "results" / dataset / "shells.npz") as archive:
             on_shells = {name.rsplit("/", 1)[0] for name in archive.files if "/" in name}
         assert {"gb/paper", "huber/outer"} <= on_shells
         assert len(on_shells) <= 3
-        around_models = 5 * len(POOL) * 3 + (len(WITH_SPREAD) + len(PREDICTIVE)) * 3 + 2 * len(CHEAP) * 2
-        assert len(nested) == around_models + 2 * 4 + 4 * len(on_shells)
+        around_models = 4 * len(POOL) * 3 + (len(WITH_SPREAD) + len(PREDICTIVE)) * 3 + len(CHEAP) * 2
+        assert len(nested) == around_models + 2 * 4 + 2 * len(on_shells)
         assert {run.data.tags["mlflow.parentRunId"] for run in nested} <= {run.info.run_id for run in runs}
         parents = [run for run in runs if "mlflow.parentRunId" not in run.data.tags]
         assert len(parents) == 1
@@ -206,7 +205,7 @@ def test_editing_a_model_reruns_its_jobs_and_no_others(house: House) -> None:
         ("tables/published.py", {"tables"}),
         ("tracking/store.py", {"track"}),
         ("intervals/split_conformal_crepes.py", INTERVAL_STAGES | {"tables", "track"}),
-        ("regions/balls.py", {"score_intervals", "figures", "tables", "track"}),
+        ("regions/box.py", {"score_intervals", "figures", "tables", "track"}),
         ("refitting.py", INTERVAL_STAGES | {"refit", "refit_shells", "refit_spaces", "score", "tables", "track"}),
         ("growth.py", INTERVAL_STAGES | {"tables", "track"}),
         ("refitting_spaces.py", {"refit_spaces", "score", "figures", "tables", "track"}),
