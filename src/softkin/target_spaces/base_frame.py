@@ -13,10 +13,12 @@ from scipy.spatial.transform import Rotation
 from sklearn.preprocessing import StandardScaler
 
 from softkin.interface import CONSTANT_RANGE_MM, Array
-from softkin.rows import Indices
+from softkin.rows import Indices, sampled_rows
 from softkin.smooth_fit import fit_smoothly
 from softkin.target_spaces.constant_curvature import from_arcs, to_arcs
 
+#: Rows that are looked at, drawn with a fixed seed: a million of them would stand in memory several times.
+MAX_ROWS_SEEN = 10_000
 #: Rows that a frame is estimated from, evenly spread over those sorted by how far they are bent aside.
 MAX_ROWS = 300
 #: A residual of this share of the robot's reach counts as an outlier's.
@@ -69,9 +71,10 @@ def base_frame(commands: Array, points: Array, declared: Mapping[str, Any] | Non
     if np.isnan(origin).all() and still.any():
         origin = points[0, np.flatnonzero(still)[0]]
     axis = _unit(declared["axis"]) if declared.get("axis") else None
-    moving = points[:, ~still]
     if axis is not None and not np.isnan(origin).any():
         return BaseFrame(origin, axis)
+    seen = sampled_rows(len(commands), MAX_ROWS_SEEN, seed=0)
+    commands, moving = commands[seen], points[np.ix_(seen, ~still)]
     rows = _telling_rows(commands, moving)
     return _estimated(commands[rows], moving[rows], origin, axis)
 
