@@ -23,6 +23,7 @@ from softkin.estimators.kinematic_regressor import KinematicRegressor
 from softkin.files import replacing, write_json
 from softkin.interface import SUBSETS, TEST, TRAIN, Array, ModelSpec, Params, Samples, coordinate_columns
 from softkin.job import stopwatch
+from softkin.rows import sampled_rows
 from softkin.target_spaces import TARGET_SPACES
 
 logger = logging.getLogger("softkin")
@@ -70,7 +71,7 @@ def some_rows(samples: Samples, max_rows: int | None, seed: int) -> Samples:
     if max_rows is None or len(samples) <= max_rows:
         return samples
     logger.warning("fitted on %d of %d rows: max_fit_rows", max_rows, len(samples))
-    rows = np.sort(np.random.default_rng(seed).choice(len(samples), max_rows, replace=False))
+    rows = sampled_rows(len(samples), max_rows, seed)
     return Samples(samples.commands[rows], samples.positions[rows])
 
 

@@ -18,6 +18,7 @@ FITTING_CODE = [
     "target_spaces/curvature.py",
     "target_spaces/constant_curvature.py",
     "target_spaces/base_frame.py",
+    "rows.py",
     "smooth_fit.py",
     "datasets/table.py",
 ]

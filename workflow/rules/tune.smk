@@ -10,7 +10,6 @@ rule tune:
             "tuning_models.py",
             "folds.py",
             "shells.py",
-            "rows.py",
             *FITTING_CODE,
         ),
         model_code=model_code,
