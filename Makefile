@@ -60,9 +60,9 @@ gallery: .venv/installed
 snakemake-report: .venv/installed
 	$(BIN)/snakemake --report results/snakemake_report.html
 
-# Long statistical and fault campaigns. PyElastica, which brings a compiler, is installed for them only.
+# Long statistical and fault campaigns. PyElastica, which brings a compiler, and PostgreSQL are installed for them only.
 campaigns: .venv/installed
-	$(BIN)/pip install --quiet --disable-pip-version-check pyelastica==1.0.0
+	$(BIN)/pip install --quiet --disable-pip-version-check pyelastica==1.0.0 pgserver==0.1.4 psycopg2-binary==2.9.13
 	$(BIN)/pytest -m slow
 
 # How well the default run uses the machine: fit CPU against wall time, and the ten slowest jobs.

@@ -31,6 +31,9 @@ SEARCHED = (TUNED, OUTER)
 PAPERS_RUN = ("gb", PAPER)
 PAPERS_LEVEL = 0.9
 
+#: What a model that ends at a constant may be fitted on the residuals of: the degree of a polynomial is the place.
+TRENDS = ("none", "linear", "quadratic")
+
 #: A coordinate whose range on `train` stays below this (mm) is constant: it says nothing about a model.
 CONSTANT_RANGE_MM = 1e-6
 

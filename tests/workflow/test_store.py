@@ -12,6 +12,7 @@ import time
 import urllib.error
 import urllib.request
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -101,18 +102,32 @@ def test_the_store_is_made_again_from_results_with_the_same_content(house: House
     assert {name: (before[name], after[name]) for name in before if after[name] != before[name]} == {}
 
 
-@pytest.fixture
-def server(tmp_path: Path) -> Iterator[str]:
-    """URI of an MLflow server with SQLite behind it, that keeps the artifacts too."""
+def sqlite(folder: Path) -> Iterator[str]:
+    """URI of a new database."""
+    yield f"sqlite:///{folder / 'server.db'}"
+
+
+def postgresql(folder: Path) -> Iterator[str]:
+    """URI of a new database of a real PostgreSQL, which `make campaigns` installs."""
+    process = pytest.importorskip("pgserver").get_server(folder / "postgresql")
+    try:
+        yield process.get_uri()
+    finally:
+        process.cleanup()
+
+
+@pytest.fixture(params=[sqlite, pytest.param(postgresql, marks=pytest.mark.slow)])
+def server(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[str]:
+    """URI of an MLflow server with a database behind it, that keeps the artifacts too."""
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
     command = [sys.executable, "-m", "mlflow", "server", "--host", "127.0.0.1", "--port", str(port), "--workers", "1"]
-    command += ["--backend-store-uri", f"sqlite:///{tmp_path / 'server.db'}"]
     command += ["--artifacts-destination", str(tmp_path / "kept")]
     environment = os.environ | {"MLFLOW_SERVER_ENABLE_JOB_EXECUTION": "false", "MLFLOW_DISABLE_TELEMETRY": "true"}
     uri = f"http://127.0.0.1:{port}"
-    with (tmp_path / "server.log").open("w") as log:
+    with contextmanager(request.param)(tmp_path) as database, (tmp_path / "server.log").open("w") as log:
+        command += ["--backend-store-uri", database]
         process = subprocess.Popen(command, env=environment, cwd=tmp_path, stdout=log, stderr=log)
         try:
             _wait_for(uri, process)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from softkin.interface import Array, ModelSpec, Params, Samples
+from softkin.interface import TRENDS, Array, ModelSpec, Params, Samples
 
 if TYPE_CHECKING:
     from optuna.trial import BaseTrial
@@ -31,7 +31,7 @@ def search_space(trial: BaseTrial) -> Params:
     """Shape of the kernel and where its likelihood is started from; the rest is learnt by maximum likelihood."""
     return {
         "kernel": trial.suggest_categorical("kernel", ["rbf", "matern32", "matern52", "rational_quadratic"]),
-        "trend": trial.suggest_categorical("trend", ["none", "linear", "quadratic"]),
+        "trend": trial.suggest_categorical("trend", TRENDS),
         "initial_length_scale": trial.suggest_float("initial_length_scale", 0.3, 10.0, log=True),
         "initial_noise": trial.suggest_float("initial_noise", 1e-8, 1e-1, log=True),
         "learning_rows": 200,

@@ -2,25 +2,31 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from softkin.interface import ModelSpec, Params
+from softkin.interface import TRENDS, ModelSpec, Params
 
 if TYPE_CHECKING:
     from optuna.trial import BaseTrial
 
+ALSO_DECIDED_BY = (Path(__file__).parent.parent / "estimators" / "detrended.py",)
+
 
 def build(params: Params, seed: int, threads: int) -> Any:
-    """One GradientBoostingRegressor(**params) per coordinate."""
+    """One GradientBoostingRegressor(**params) per coordinate, on what is left of a `trend`."""
     from sklearn.ensemble import GradientBoostingRegressor
     from sklearn.multioutput import MultiOutputRegressor
 
-    return MultiOutputRegressor(GradientBoostingRegressor(**params, random_state=seed))
+    from softkin.estimators.detrended import detrended
+
+    return detrended(lambda rest: MultiOutputRegressor(GradientBoostingRegressor(**rest, random_state=seed)), params)
 
 
 def search_space(trial: BaseTrial) -> Params:
     """At most 250 trees of depth 6: the dearest model of the pool, 21 coordinates on ABAQUS."""
     return {
+        "trend": trial.suggest_categorical("trend", TRENDS),
         "n_estimators": trial.suggest_int("n_estimators", 100, 250, step=50),
         "learning_rate": trial.suggest_float("learning_rate", 0.03, 0.3, log=True),
         "max_depth": trial.suggest_int("max_depth", 2, 6),
@@ -28,6 +34,9 @@ def search_space(trial: BaseTrial) -> Params:
         "min_samples_leaf": trial.suggest_int("min_samples_leaf", 1, 20, log=True),
     }
 
+
+_WHOLE = {"subsample": 1.0, "min_samples_leaf": 1}
+_HALF = {"subsample": 0.5, "min_samples_leaf": 1}
 
 SPEC = ModelSpec(
     name="gb",
@@ -37,8 +46,9 @@ SPEC = ModelSpec(
     paper_params={},
     search_space=search_space,
     first_trials=(
-        {"n_estimators": 100, "learning_rate": 0.1, "max_depth": 3, "subsample": 1.0, "min_samples_leaf": 1},
-        {"n_estimators": 250, "learning_rate": 0.05, "max_depth": 5, "subsample": 0.5, "min_samples_leaf": 1},
+        {"trend": "linear", "n_estimators": 100, "learning_rate": 0.1, "max_depth": 3, **_WHOLE},
+        {"trend": "quadratic", "n_estimators": 100, "learning_rate": 0.1, "max_depth": 3, **_WHOLE},
+        {"trend": "none", "n_estimators": 250, "learning_rate": 0.05, "max_depth": 5, **_HALF},
     ),
     is_cheap=True,
 )

@@ -7,19 +7,27 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from softkin.interface import Array, ModelSpec, Params, Samples
+from softkin.interface import TRENDS, Array, ModelSpec, Params, Samples
 
 if TYPE_CHECKING:
     from optuna.trial import BaseTrial
 
-ALSO_DECIDED_BY = (Path(__file__).parent.parent / "estimators" / "last_layer_laplace.py",)
+ALSO_DECIDED_BY = tuple(
+    Path(__file__).parent.parent / "estimators" / name for name in ("detrended.py", "last_layer_laplace.py")
+)
 
 
 def build(params: Params, seed: int, threads: int) -> Any:
     """MLPRegressor(**params) with `width` neurons in each of `layers` hidden layers; `random_state` may be given.
 
-    Of several `networks` (default 1), which differ in their seed alone, the mean.
+    Of several `networks` (default 1), which differ in their seed alone, the mean; all on what is left of a `trend`.
     """
+    from softkin.estimators.detrended import detrended
+
+    return detrended(lambda rest: _networks(rest, seed), params)
+
+
+def _networks(params: Params, seed: int) -> Any:
     from sklearn.ensemble import BaggingRegressor
     from sklearn.neural_network import MLPRegressor
 
@@ -36,6 +44,12 @@ def spread(regressor: Any, train: Samples, commands: Array) -> Array:
     Several networks are a mixture: the mean of their variances, and the variance of their means (Lakshminarayanan et
     al. 2017, section 2.4).
     """
+    from softkin.estimators.detrended import spread_around
+
+    return spread_around(_spread_of_networks, regressor, train, commands)
+
+
+def _spread_of_networks(regressor: Any, train: Samples, commands: Array) -> Array:
     from softkin.estimators.last_layer_laplace import last_layer_laplace
 
     networks = getattr(regressor, "estimators_", [regressor])
@@ -48,6 +62,7 @@ def search_space(trial: BaseTrial) -> Params:
     """Small smooth networks by L-BFGS, one or three, or a larger one by Adam; all stop when they no longer improve."""
     solver = trial.suggest_categorical("solver", ["lbfgs", "adam"])
     params = {
+        "trend": trial.suggest_categorical("trend", TRENDS),
         "solver": solver,
         "layers": trial.suggest_int("layers", 1, 2),
         "width": trial.suggest_int("width", 8, 64, log=True),
@@ -63,6 +78,8 @@ def search_space(trial: BaseTrial) -> Params:
     return params
 
 
+_START = {"solver": "lbfgs", "layers": 2, "activation": "tanh"}
+
 SPEC = ModelSpec(
     name="mlp",
     title="Multi-layer perceptron",
@@ -72,8 +89,9 @@ SPEC = ModelSpec(
     paper_params={"layers": 1, "width": 100, "random_state": 1, "max_iter": 12},
     search_space=search_space,
     first_trials=(
-        {"solver": "lbfgs", "layers": 2, "width": 16, "activation": "tanh", "alpha": 1e-2, "networks": 3},
-        {"solver": "lbfgs", "layers": 2, "width": 32, "activation": "tanh", "alpha": 1e-3, "networks": 1},
+        {"trend": "none", **_START, "width": 16, "alpha": 1e-2, "networks": 3},
+        {"trend": "linear", **_START, "width": 16, "alpha": 1e-2, "networks": 3},
+        {"trend": "none", **_START, "width": 32, "alpha": 1e-3, "networks": 1},
     ),
     spread=spread,
     is_predictive=True,

@@ -2,25 +2,36 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from softkin.interface import Array, ModelSpec, Params, Samples
+from softkin.interface import TRENDS, Array, ModelSpec, Params, Samples
 
 if TYPE_CHECKING:
     from optuna.trial import BaseTrial
 
+ALSO_DECIDED_BY = (Path(__file__).parent.parent / "estimators" / "detrended.py",)
+
 
 def build(params: Params, seed: int, threads: int) -> Any:
-    """RandomForestRegressor(**params)."""
+    """RandomForestRegressor(**params), on what is left of a `trend`."""
     from sklearn.ensemble import RandomForestRegressor
 
-    return RandomForestRegressor(**params, random_state=seed, n_jobs=threads)
+    from softkin.estimators.detrended import detrended
+
+    return detrended(lambda rest: RandomForestRegressor(**rest, random_state=seed, n_jobs=threads), params)
 
 
 def spread(regressor: Any, train: Samples, commands: Array) -> Array:
     """Standard deviation over the trees."""
+    from softkin.estimators.detrended import spread_around
+
+    return spread_around(_spread_of_trees, regressor, train, commands)
+
+
+def _spread_of_trees(regressor: Any, train: Samples, commands: Array) -> Array:
     trees = np.stack([tree.predict(commands) for tree in regressor.estimators_])
     return np.asarray(trees.std(axis=0).reshape(len(commands), -1))
 
@@ -28,6 +39,7 @@ def spread(regressor: Any, train: Samples, commands: Array) -> Array:
 def search_space(trial: BaseTrial) -> Params:
     """Deep trees; what matters is the leaf size and how many commands a split may choose from."""
     return {
+        "trend": trial.suggest_categorical("trend", TRENDS),
         "n_estimators": trial.suggest_int("n_estimators", 50, 300, step=50),
         "max_depth": trial.suggest_int("max_depth", 6, 24),
         "min_samples_leaf": trial.suggest_int("min_samples_leaf", 1, 8),
@@ -36,6 +48,8 @@ def search_space(trial: BaseTrial) -> Params:
     }
 
 
+_START = {"n_estimators": 100, "max_depth": 24, "min_samples_leaf": 1, "max_features": 1.0, "bootstrap": True}
+
 SPEC = ModelSpec(
     name="rf",
     title="Random forest",
@@ -43,9 +57,7 @@ SPEC = ModelSpec(
     build=build,
     paper_params={"n_estimators": 100, "max_depth": 2},
     search_space=search_space,
-    first_trials=(
-        {"n_estimators": 100, "max_depth": 24, "min_samples_leaf": 1, "max_features": 1.0, "bootstrap": True},
-    ),
+    first_trials=tuple({"trend": trend, **_START} for trend in TRENDS),
     spread=spread,
     is_cheap=True,
 )

@@ -2,24 +2,30 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from softkin.interface import ModelSpec, Params
+from softkin.interface import TRENDS, ModelSpec, Params
 
 if TYPE_CHECKING:
     from optuna.trial import BaseTrial
 
+ALSO_DECIDED_BY = (Path(__file__).parent.parent / "estimators" / "detrended.py",)
+
 
 def build(params: Params, seed: int, threads: int) -> Any:
-    """XGBRegressor(**params)."""
+    """XGBRegressor(**params), on what is left of a `trend`."""
     from xgboost import XGBRegressor
 
-    return XGBRegressor(**params, random_state=seed, n_jobs=threads)
+    from softkin.estimators.detrended import detrended
+
+    return detrended(lambda rest: XGBRegressor(**rest, random_state=seed, n_jobs=threads), params)
 
 
 def search_space(trial: BaseTrial) -> Params:
     """Up to 400 rounds; depth, shrinkage and the three usual regularisers."""
     return {
+        "trend": trial.suggest_categorical("trend", TRENDS),
         "n_estimators": trial.suggest_int("n_estimators", 100, 400, step=50),
         "learning_rate": trial.suggest_float("learning_rate", 0.03, 0.3, log=True),
         "max_depth": trial.suggest_int("max_depth", 2, 8),
@@ -29,6 +35,16 @@ def search_space(trial: BaseTrial) -> Params:
     }
 
 
+#: XGBoost's own settings.
+_START = {
+    "n_estimators": 100,
+    "learning_rate": 0.3,
+    "max_depth": 6,
+    "subsample": 1.0,
+    "min_child_weight": 1.0,
+    "reg_lambda": 1.0,
+}
+
 SPEC = ModelSpec(
     name="xgb",
     title="XGBoost",
@@ -36,15 +52,6 @@ SPEC = ModelSpec(
     build=build,
     paper_params={},
     search_space=search_space,
-    first_trials=(
-        {
-            "n_estimators": 100,
-            "learning_rate": 0.3,
-            "max_depth": 6,
-            "subsample": 1.0,
-            "min_child_weight": 1.0,
-            "reg_lambda": 1.0,
-        },
-    ),
+    first_trials=tuple({"trend": trend, **_START} for trend in TRENDS),
     is_cheap=True,
 )

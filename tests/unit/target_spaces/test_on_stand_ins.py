@@ -14,8 +14,10 @@ from softkin.target_spaces import TARGET_SPACES
 #: Models that continue the shape they saw.
 GO_ON = [("lr", {"degree": d}) for d in (1, 2, 3)] + [("ridge", {"degree": 2, "alpha": 1e-3})]
 GO_ON += [("lasso", {"degree": 2, "alpha": 1e-3}), ("huber", {"degree": 2, "epsilon": 1.35, "alpha": 1e-4})]
-#: That end at a constant.
+#: That end at a constant, or at a trend.
 STAY = [("rf", {"n_estimators": 50}), ("svr", {})]
+ON_A_TREND = [(model, params | {"trend": trend}) for model, params in (*STAY, ("gb", {}), ("xgb", {}))
+              for trend in ("linear", "quadratic")]  # fmt: skip
 #: What may be left, at most, of the error in positions.
 LARGEST_RATIO = {"tendon_finger": 0.2, "pneumatic_arm": 0.5}
 
@@ -35,7 +37,7 @@ def ratio(robot: dict[str, Samples], model: str, params: Params) -> float:
     return errors["curvature"] / errors["cartesian"]
 
 
-@pytest.mark.parametrize(("model", "params"), GO_ON)
+@pytest.mark.parametrize(("model", "params"), GO_ON + ON_A_TREND)
 def test_a_model_that_goes_on_is_far_better_in_arcs(
     robot: tuple[str, dict[str, Samples]], model: str, params: Params
 ) -> None:
