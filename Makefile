@@ -3,6 +3,8 @@ PYTHON ?= python3
 CORES ?= 2
 BIN := .venv/bin
 export MLFLOW_DISABLE_TELEMETRY := true
+# Things run side by side, one core each: with more threads than that they wait for each other most of the time.
+export OMP_NUM_THREADS := 1
 
 .PHONY: run unlock new-robot test test-workflow test-others test-run lint ui store report gallery snakemake-report campaigns benchmark benchmark-large coverage standins
 .PHONY: environment clean ui-screenshot

@@ -81,7 +81,7 @@ def test_interval_metrics_have_a_row_for_everything(house: House) -> None:
     runs, presets = len(POOL) * len(PRESETS), len(PRESETS)
     around = {"predictions": runs, "spreads": presets * len(WITH_SPREAD), "predictive": presets * len(PREDICTIVE)}
     # Learners of quantiles, and cheap models refitted, in the presets paper and tuned.
-    around |= {"quantiles": 2 * 2, "folds": 2 * len(CHEAP)}
+    around |= {"quantiles": 2 * len(SMALL["quantile_models"]), "folds": 2 * len(CHEAP)}
     on_shells = [name for name in SMALL["interval_methods"] if INTERVAL_METHODS[name].on == "shells"]
     assert len({rows.pop(name) for name in on_shells}) == 1
     rest = [name for name in SMALL["interval_methods"] if name not in on_shells]
@@ -137,7 +137,7 @@ def test_the_profile_is_found_without_being_named(house: House) -> None:
 
 def test_every_job_left_its_log(house: House) -> None:
     logs = {path.relative_to(house.work / "results" / "logs") for path in (house.work / "results").rglob("*.log")}
-    assert {Path("tune/finger/svr.log"), Path("predict/finger/gp.log"), Path("track/finger.log")} <= logs
+    assert {Path("tune/finger/mlp.log"), Path("predict/finger/gp.log"), Path("track/finger.log")} <= logs
 
 
 def test_the_store_holds_a_child_run_per_model_and_preset(house: House) -> None:
@@ -147,14 +147,15 @@ def test_the_store_holds_a_child_run_per_model_and_preset(house: House) -> None:
         runs = client.search_runs([experiment.experiment_id], max_results=1000)
         nested = [run for run in runs if run.data.tags["kind"] == "intervals"]
         # SCP by two engines and by distance, and regions, on every run; by spread and the own interval on models that
-        # have one; CV+ on cheap models, QR and CQR on two learners, in two presets each; two on shells of the paper's
+        # have one; CV+ on cheap models, QR and CQR on the learners, in two presets each; two on shells of the paper's
         # run, the chosen one and the robust one
         with np.load(house.work / "results" / dataset / "shells.npz") as archive:
             on_shells = {name.rsplit("/", 1)[0] for name in archive.files if "/" in name}
         assert {"gb/paper", "huber/outer"} <= on_shells
         assert len(on_shells) <= 3
         around_models = 4 * len(POOL) * 3 + (len(WITH_SPREAD) + len(PREDICTIVE)) * 3 + len(CHEAP) * 2
-        assert len(nested) == around_models + 2 * 4 + 2 * len(on_shells)
+        on_learners = 2 * 2 * len(SMALL["quantile_models"])
+        assert len(nested) == around_models + on_learners + 2 * len(on_shells)
         assert {run.data.tags["mlflow.parentRunId"] for run in nested} <= {run.info.run_id for run in runs}
         parents = [run for run in runs if "mlflow.parentRunId" not in run.data.tags]
         assert len(parents) == 1
@@ -178,7 +179,7 @@ def test_a_second_run_does_nothing(house: House) -> None:
 
 
 def test_editing_a_model_reruns_its_jobs_and_no_others(house: House) -> None:
-    file = house.root / "src" / "softkin" / "models" / "svr.py"
+    file = house.root / "src" / "softkin" / "models" / "mlp.py"
     original = file.read_text()
     file.write_text(original + "\n# edited\n")
     try:
@@ -188,7 +189,7 @@ def test_editing_a_model_reruns_its_jobs_and_no_others(house: House) -> None:
     jobs = [job for job in jobs if job[0] not in INTERVAL_STAGES | {"refit", "refit_shells", "refit_spaces"}]
     per_model = {job for job in jobs if job[0] in ("tune", "fit_paper", "fit_tuned", "predict")}
     assert {rule for rule, _ in per_model} == {"tune", "fit_paper", "fit_tuned", "predict"}
-    assert all("model=svr" in wildcards for _, wildcards in per_model)
+    assert all("model=mlp" in wildcards for _, wildcards in per_model)
     assert {rule for rule, _ in jobs} - {"tune", "fit_paper", "fit_tuned", "predict"} <= {
         *("score", "tables", "campaign_figures", "report", "track"),
     }
@@ -246,7 +247,7 @@ def test_a_typo_is_told_and_stops_the_run(house: House, options: list[str], says
 
 def test_results_do_not_depend_on_the_number_of_cores_or_the_run(house: House, tmp_path: Path) -> None:
     """Another folder, one core: the same tables but for timings."""
-    options = ["--config", "models=[lr, rf, gb, gp]", "datasets=[finger]"]
+    options = ["--config", "models=[gb, gp]", "datasets=[finger]"]
     done = house.snakemake("results/finger/point_metrics.csv", *options, cores=1, work=tmp_path)
     assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
     name = Path("results") / "finger" / "point_metrics.csv"
@@ -262,7 +263,8 @@ def test_bad_data_stop_with_a_message_and_lose_nothing(house: House, tmp_path: P
     shutil.copytree(house.mirror, broken)
     (broken / "FINGER.json").write_bytes((broken / "FINGER.json").read_bytes()[:-100])
     bad = House(house.root, tmp_path, broken)
-    options = ["--config", "models=[lr]", "presets=[paper]", "sources={finger: {urls: []}}"]
+    small = ["models=[lr]", "presets=[paper]", "interval_methods=[scp_mapie]", "regions=[]"]
+    options = ["--config", *small, "sources={finger: {urls: []}}"]
     done = bad.snakemake(*options)
     output = done.stdout + done.stderr
     assert done.returncode != 0

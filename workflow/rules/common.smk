@@ -15,6 +15,10 @@ from softkin.quantile_models import QUANTILE_MODELS
 from softkin.regions import REGION_METHODS
 from softkin.standins import STANDINS
 
+# A job has one core. What asks for none by itself (OpenMP, BLAS) would take all, and two such jobs side by side wait for
+# each other most of the time.
+os.environ["OMP_NUM_THREADS"] = "1"
+
 try:
     check_configuration(
         config,
