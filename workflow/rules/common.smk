@@ -17,7 +17,7 @@ from softkin.standins import STANDINS
 
 # A job has one core. What asks for none by itself (OpenMP, BLAS) would take all, and two such jobs side by side wait for
 # each other most of the time.
-os.environ["OMP_NUM_THREADS"] = "1"
+os.environ.update(OMP_NUM_THREADS="1")
 
 try:
     check_configuration(
