@@ -152,16 +152,19 @@ def test_a_server_takes_the_place_of_the_file(house: House, server: str, tmp_pat
     """One dataset's results, tracked to a server by an environment variable alone."""
     elsewhere = without_its_store(house, tmp_path / "work")
     work = elsewhere.work
-    for _ in range(2):  # the second time nothing is logged anew
+    logged = []
+    for options in ((), ("--forcerun", "track")):  # the second time nothing is logged anew
         done = elsewhere.snakemake(
-            "results/finger/mlflow_runs.json", "--forcerun", "track", more_environment={"MLFLOW_TRACKING_URI": server}
+            "results/finger/mlflow_runs.json", *options, more_environment={"MLFLOW_TRACKING_URI": server}
         )
         assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
+        experiment = MlflowClient(server).get_experiment_by_name("finger")
+        runs = MlflowClient(server).search_runs([experiment.experiment_id], max_results=1000)
+        logged.append({run.info.run_id for run in runs})
+    assert logged[0] == logged[1]
     assert not (work / "mlflow.db").exists()
     assert not (work / "mlartifacts").exists()
     client = MlflowClient(server)
-    experiment = client.get_experiment_by_name("finger")
-    runs = client.search_runs([experiment.experiment_id], max_results=1000)
     local_store = MlflowClient(f"sqlite:///{house.work / 'mlflow.db'}")
     there = local_store.search_runs([local_store.get_experiment_by_name("finger").experiment_id], max_results=1000)
     assert {run.data.tags[KEY]: run.data.metrics for run in runs} == {

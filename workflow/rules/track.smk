@@ -16,7 +16,7 @@ rule create_store:
 
 rule track:
     input:
-        store=ancient("results/mlflow_store.json"),
+        store="results/mlflow_store.json",
         description="results/{dataset}/dataset.json",
         data_card="results/{dataset}/data_card.json",
         point="results/{dataset}/point_metrics.csv",
