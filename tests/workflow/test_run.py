@@ -274,35 +274,6 @@ def test_bad_data_stop_with_a_message_and_lose_nothing(house: House, tmp_path: P
     assert (tmp_path / "results" / "elastica_2023_09" / "mlflow_runs.json").exists()
 
 
-def test_out_of_reach_a_stand_in_takes_the_place_and_the_published_data_return(house: House, tmp_path: Path) -> None:
-    """Nobody may take it for the real thing: another name, a title that says so, a warning before and after."""
-    (tmp_path / "mirror").mkdir()
-    override = yaml.safe_load((house.mirror / "override.yaml").read_text())
-    override["sources"]["finger"]["urls"] = []
-    override["datasets"] = ["finger"]
-    (tmp_path / "mirror" / "override.yaml").write_text(yaml.safe_dump(override))
-    alone = House(house.root, tmp_path, tmp_path / "mirror")
-    small = ["models=[lr]", "presets=[paper]", "interval_methods=[scp_mapie]", "regions=[]"]
-    done = alone.snakemake("--config", *small)
-    output = done.stdout + done.stderr
-    assert done.returncode == 0, output[-3000:]
-    assert output.count("STAND-INS: finger cannot be reached") == 2
-    about = read_json(tmp_path / "results" / "finger_standin" / "dataset.json")
-    assert about["origin"] == "stand-in"
-    assert "STAND-IN" in about["title"]
-    assert about["rows"] == dict(zip(SUBSETS, (120, 88, 89, 120), strict=True))
-    assert "STAND-IN" in (tmp_path / "results" / "report.html").read_text()
-    assert "nothing was run that the paper has printed" in output
-    fail = alone.snakemake("results/finger/table.parquet", "--config", "when_unreachable=fail")
-    assert fail.returncode != 0
-    assert "SOFTKIN_DATA_MIRROR" in fail.stdout + fail.stderr
-    shutil.copy(house.mirror / "FINGER.json", tmp_path / "mirror")
-    again = alone.snakemake("results/finger/table.parquet")
-    assert again.returncode == 0, again.stdout + again.stderr
-    assert "STAND-INS" not in again.stdout + again.stderr
-    assert read_json(tmp_path / "results" / "finger" / "dataset.json")["origin"] == "published"
-
-
 def test_the_house_is_linted(house: House) -> None:
     done = house.snakemake("--lint")
     assert done.returncode == 0, done.stdout + done.stderr

@@ -1,0 +1,44 @@
+"""What runs when published data are out of reach."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+import yaml
+
+from softkin.files import read_json
+from softkin.interface import SUBSETS
+from tests.workflow.conftest import House
+
+pytestmark = pytest.mark.timeout(600)
+
+
+def test_out_of_reach_a_stand_in_takes_the_place_and_the_published_data_return(house: House, tmp_path: Path) -> None:
+    """Nobody may take it for the real thing: another name, a title that says so, a warning before and after."""
+    (tmp_path / "mirror").mkdir()
+    override = yaml.safe_load((house.mirror / "override.yaml").read_text())
+    override["sources"]["finger"]["urls"] = []
+    override["datasets"] = ["finger"]
+    (tmp_path / "mirror" / "override.yaml").write_text(yaml.safe_dump(override))
+    alone = House(house.root, tmp_path, tmp_path / "mirror")
+    small = ["models=[lr]", "presets=[paper]", "interval_methods=[scp_mapie]", "regions=[]"]
+    done = alone.snakemake("--config", *small)
+    output = done.stdout + done.stderr
+    assert done.returncode == 0, output[-3000:]
+    assert output.count("STAND-INS: finger cannot be reached") == 2
+    about = read_json(tmp_path / "results" / "finger_standin" / "dataset.json")
+    assert about["origin"] == "stand-in"
+    assert "STAND-IN" in about["title"]
+    assert about["rows"] == dict(zip(SUBSETS, (120, 88, 89, 120), strict=True))
+    assert "STAND-IN" in (tmp_path / "results" / "report.html").read_text()
+    assert "nothing was run that the paper has printed" in output
+    fail = alone.snakemake("results/finger/table.parquet", "--config", "when_unreachable=fail")
+    assert fail.returncode != 0
+    assert "SOFTKIN_DATA_MIRROR" in fail.stdout + fail.stderr
+    shutil.copy(house.mirror / "FINGER.json", tmp_path / "mirror")
+    again = alone.snakemake("results/finger/table.parquet")
+    assert again.returncode == 0, again.stdout + again.stderr
+    assert "STAND-INS" not in again.stdout + again.stderr
+    assert read_json(tmp_path / "results" / "finger" / "dataset.json")["origin"] == "published"
