@@ -19,6 +19,7 @@ from softkin.files import read_json, replacing, write_text
 from softkin.findings import leaking_subsets
 from softkin.interface import EXTRAPOLATION, TEST, SoftkinError
 from softkin.models import MODELS
+from softkin.tables.interval_choice import given_intervals
 from softkin.tables.paper_layout import PaperTable, format_number
 from softkin.tables.selection import deployed
 
@@ -64,7 +65,7 @@ def robots_table(results: Path) -> PaperTable:
         test, outside = (
             scores.loc[(robot.dataset, robot.model, robot.preset, subset)] for subset in (TEST, EXTRAPOLATION)
         )
-        interval = choice[(choice["dataset"] == robot.dataset) & choice["chosen"]].iloc[0]
+        interval = given_intervals(choice).loc[robot.dataset]
         errors = (test["euclidean_mean_mm"], test["euclidean_p95_mm"], outside["euclidean_mean_mm"])
         rows.append(
             [

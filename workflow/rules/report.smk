@@ -11,7 +11,12 @@ rule report:
         records=[record for _, _, records in timed_jobs() for record in records],
         benchmarks=[benchmark for _, benchmark, _ in timed_jobs()],
         citation=Path(workflow.basedir) / "CITATION.cff",
-        code=package("durations.py", "tables/published.py", "tables/paper_layout.py"),
+        code=package(
+            "durations.py",
+            "tables/published.py",
+            "tables/paper_layout.py",
+            "tables/interval_choice.py",
+        ),
         page=report_code(),
     output:
         report(

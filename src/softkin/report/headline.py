@@ -12,6 +12,7 @@ from softkin.interface import EXTRAPOLATION, TEST
 from softkin.report.grid import number_text, share_text
 from softkin.report.marks import Mark, Marks
 from softkin.report.scores import interval_rows
+from softkin.tables.interval_choice import given_intervals
 from softkin.tables.selection import deployed
 
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -54,8 +55,7 @@ def robot_cards(
             chosen = deployed(frames["selection"]).set_index("dataset").loc[dataset]
             answer = models[chosen["model"]]
             figure, errors, remark = _errors(frames["point_metrics"], dataset, chosen, models)
-        choice = frames["interval_choice"]
-        best = choice[(choice["dataset"] == dataset) & choice["chosen"]].iloc[0]
+        best = given_intervals(frames["interval_choice"]).loc[dataset]
         interval, sure = _how_sure(best, intervals, models, methods)
         about_marks = marks.of_dataset(dataset)
         cards.append(RobotCard(dataset, about["title"], answer, figure, errors, remark, interval, sure, about_marks))

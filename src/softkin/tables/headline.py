@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import pandas as pd
 
 from softkin.interface import EXTRAPOLATION, TEST
+from softkin.tables.interval_choice import given_intervals
 from softkin.tables.paper_layout import format_number
 
 AIMS = {
@@ -56,14 +57,14 @@ def headline(
 
 
 def _how_sure(intervals: pd.DataFrame, wide: int) -> list[str]:
-    """Per dataset the chosen interval: what surrounds a coordinate, how wide, how often it covers `test`; and how often
-    extrapolation.
+    """Per dataset the interval of its calibrated model: what surrounds a coordinate, how wide, how often it covers
+    `test`; and how often extrapolation.
     """
-    chosen = intervals[intervals["chosen"]]
-    level = chosen["confidence_level"].iloc[0]
+    given = given_intervals(intervals)
+    level = given["confidence_level"].iloc[0]
     lines = ["", f"  how sure: {level:.0%} intervals, mean over coordinates", ""]
     lines.append(f"  {'dataset':<{wide}}{'around':<14}{'method':<16}{'width (mm)':>12}{'test':>8}{'beyond':>9}")
-    for row in chosen.itertuples():
+    for row in given.itertuples():
         around = f"{row.model} {row.preset}"
         width = format_number(row.test_mean_width_mm)
         lines.append(

@@ -13,6 +13,14 @@ PAPERS_METHOD = "scp_mapie"
 SHOWN = ("coverage", "mean_width_mm", "winkler_mm")
 
 
+def given_intervals(choice: pd.DataFrame) -> pd.DataFrame:
+    """The row of each dataset's calibrated model, which is not the chosen one where that has a learner of its own; the
+    chosen one where no candidate is deployed. Indexed by dataset.
+    """
+    shown = choice[choice["deployed"] | choice["chosen"]].sort_values("deployed", ascending=False, kind="stable")
+    return shown.drop_duplicates("dataset").set_index("dataset", drop=False).loc[choice["dataset"].unique()]
+
+
 def interval_choice(candidates: Mapping[str, pd.DataFrame], metrics: pd.DataFrame) -> pd.DataFrame:
     """Candidates of every dataset, best first by `cv_winkler_mm`, with their scores (mean over moving coordinates) on
     test and, by the method that each has `outside`, on extrapolation; and the ratio of their Winkler score on test to

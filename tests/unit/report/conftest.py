@@ -88,7 +88,13 @@ def frames() -> dict[str, pd.DataFrame]:
     choice = pd.DataFrame(
         [
             {"dataset": dataset, "model": "gp", "preset": "tuned", "interval_method": method, "confidence_level": 0.9}
-            | {"cv_winkler_mm": 1.0, "chosen": method == "cps", "test_coverage": 0.9, "test_mean_width_mm": 2e-7}
+            | {
+                "cv_winkler_mm": 1.0,
+                "chosen": method == "cps",
+                "deployed": method == "cps",
+                "test_coverage": 0.9,
+                "test_mean_width_mm": 2e-7,
+            }
             | {"test_winkler_mm": 3.0, "winkler_ratio_to_paper": np.nan, "outside": "cps"}
             | {"extrapolation_coverage": 0.8, "extrapolation_mean_width_mm": 0.5}
             for dataset, method in itertools.product(ROBOTS, ("cps", "scp_mapie"))

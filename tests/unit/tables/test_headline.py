@@ -22,9 +22,10 @@ SURE = pd.DataFrame(
             "test_mean_width_mm": width,
             "test_coverage": 0.912,
             "extrapolation_coverage": 0.95,
-            "chosen": method == "scp_spread",
+            "chosen": method == "cqr",
+            "deployed": method == "scp_spread",
         }
-        for method, width in (("scp_spread", 2.5), ("cqr", 7.0))
+        for method, width in (("cqr", 7.0), ("scp_spread", 2.5))
     ]
 )
 CHOSEN = pd.DataFrame([{"dataset": "arm", "model": "gp", "preset": "tuned", "objective": "both"}])
@@ -48,7 +49,10 @@ def test_without_tuning_there_is_no_choice_to_show() -> None:
     assert "The model is chosen" not in text
 
 
-def test_the_chosen_interval_and_what_it_covers() -> None:
+def test_the_interval_of_the_calibrated_model_and_what_it_covers() -> None:
+    """Not the chosen one, which a learner of quantiles gives."""
     text = headline(CHOSEN, scores(0.5, 1.25), SURE, [])
     assert "arm gp tuned scp_spread 2.50 91.2% 95.0%" in " ".join(text.split())
     assert "cqr" not in text
+    text = headline(CHOSEN, scores(0.5, 1.25), SURE.assign(deployed=False), [])
+    assert "arm gp tuned cqr 7.00 91.2% 95.0%" in " ".join(text.split())
