@@ -247,7 +247,7 @@ def test_a_typo_is_told_and_stops_the_run(house: House, options: list[str], says
 
 def test_results_do_not_depend_on_the_number_of_cores_or_the_run(house: House, tmp_path: Path) -> None:
     """Another folder, one core: the same tables but for timings."""
-    options = ["--config", "models=[gb, gp]", "datasets=[finger]"]
+    options = ["--config", "models=[lr, gb, gp, mlp]", "datasets=[finger]"]
     done = house.snakemake("results/finger/point_metrics.csv", *options, cores=1, work=tmp_path)
     assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
     name = Path("results") / "finger" / "point_metrics.csv"
