@@ -6,7 +6,7 @@ export MLFLOW_DISABLE_TELEMETRY := true
 # Things run side by side, one core each: with more threads than that they wait for each other most of the time.
 export OMP_NUM_THREADS := 1
 
-.PHONY: run unlock new-robot test test-workflow test-others test-run lint ui store report gallery snakemake-report campaigns benchmark benchmark-large coverage standins
+.PHONY: run unlock new-robot test test-workflow test-others test-run lint ui store report gallery snakemake-report campaigns benchmark benchmark-large benchmark-pruning coverage standins
 .PHONY: environment clean ui-screenshot
 
 run: .venv/installed
@@ -79,6 +79,10 @@ coverage: .venv/installed
 benchmark-large: .venv/installed
 	$(BIN)/python benchmarks/large.py
 	$(BIN)/python benchmarks/large.py --format csv
+
+# What cutting trials short costs and saves, on FINGER of a finished run.
+benchmark-pruning: .venv/installed
+	$(BIN)/python benchmarks/pruning.py
 
 # How long the stand-ins of all datasets take to simulate.
 standins: .venv/installed

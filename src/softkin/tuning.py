@@ -28,6 +28,9 @@ logger = logging.getLogger("softkin")
 #: Whatever can change a trial's outcome besides our own code.
 DECIDING_PACKAGES = ("numpy", "scipy", "scikit-learn", "xgboost", "optuna")
 ENDED = (TrialState.COMPLETE, TrialState.PRUNED)
+#: From the sixth on, a trial goes on only as long as its running mean is among this share (percent) of the complete
+#: ones: parts are the same for all, so the first tells nearly all. `benchmarks/pruning.py` measures what that costs.
+STARTUP_TRIALS, KEPT_PERCENT = 5, 10.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,7 +144,7 @@ def tune(
 def _open_study(path: Path, mark: str) -> optuna.Study:
     """The study of this fingerprint; a new one, put in place whole, when there is none."""
     name = mark[:16]
-    pruner = optuna.pruners.MedianPruner(n_startup_trials=5, n_warmup_steps=0)
+    pruner = optuna.pruners.PercentilePruner(KEPT_PERCENT, n_startup_trials=STARTUP_TRIALS)
     if not path.exists() or name not in optuna.get_all_study_names(f"sqlite:///{path}"):
         with replacing(path) as temporary:
             storage = optuna.storages.RDBStorage(f"sqlite:///{temporary}")
@@ -174,7 +177,8 @@ def _row(place: int, trial: FrozenTrial) -> dict[str, Any]:
     attributes = {key: trial.user_attrs.get(key) for key in ("n_parts_scored", "seconds", "cpu_seconds")}
     # Optuna gives a pruned trial its last running mean as value; only a whole cross-validation is a score.
     whole = trial.state == TrialState.COMPLETE
-    return {"trial": place, "state": trial.state.name, "score_mm": trial.value if whole else None} | attributes | shown
+    scores = {"score_mm": trial.value if whole else None, "first_part_mm": trial.intermediate_values.get(0)}
+    return {"trial": place, "state": trial.state.name} | scores | attributes | shown
 
 
 def record(result: TuningResult) -> dict[str, Any]:

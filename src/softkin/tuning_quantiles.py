@@ -26,7 +26,7 @@ from softkin.quantiles import QuantileModel
 from softkin.tuning import TuningSettings, bounded_rows, record, tune
 
 #: A study sees this many moving coordinates, evenly spread over the robot: each costs a model of its own.
-MAX_COORDINATES = 3
+MAX_COORDINATES = 2
 
 
 def some_coordinates(samples: Samples) -> Samples:

@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 from softkin.files import read_json
 from softkin.interface import TUNED
 from softkin.models import MODELS, source_files
-from softkin.tuning import TuningResult, TuningSettings, bounded_rows, fingerprint
+from softkin.tuning import KEPT_PERCENT, STARTUP_TRIALS, TuningResult, TuningSettings, bounded_rows, fingerprint
 from softkin.tuning_models import Robot, SearchSettings, tune_model
 from tests.conftest import bending_arm
 
@@ -101,6 +101,12 @@ def test_the_best_trial_is_a_whole_cross_validation(tmp_path: Path) -> None:
     assert len(pruned) > 0
     assert (pruned["n_parts_scored"] < 3).all()
     assert pruned["score_mm"].isna().all()
+    assert result.trials["first_part_mm"].gt(0).all()
+    # Nearly the best on the first part, or not carried further.
+    late = complete[complete["trial"] >= STARTUP_TRIALS]
+    for trial, first in zip(late["trial"], late["first_part_mm"], strict=True):
+        earlier = complete.loc[complete["trial"] < trial, "first_part_mm"]
+        assert first <= np.percentile(earlier, KEPT_PERCENT)
 
 
 WORKER = """

@@ -14,7 +14,7 @@ from softkin.interface import TRAIN, TUNED, DatasetResults, FigureSpec
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-#: With fewer complete trials there is nothing to learn from.
+#: With fewer trials there is nothing to learn from.
 LEAST_TRIALS = 10
 N_COLUMNS = 4
 PREFIX = "param_"
@@ -25,7 +25,8 @@ def frame(results: DatasetResults) -> pd.DataFrame:
     standard deviation, when a parameter is shuffled among the trials.
 
     scikit-learn's `permutation_importance` (Breiman 2001, section 10) of a forest of 32 trees that was fitted to the
-    logarithm of the score of all complete trials; models with fewer than `LEAST_TRIALS` of them are left out.
+    logarithm of the error on the first part of `train`, which trials have that were cut short, too: the others would be
+    the good ones only. Models with fewer than `LEAST_TRIALS` are left out.
     """
     parts = [_importances(pd.read_csv(path)).assign(model=model) for model, path in results.trials.items()]
     parts = [part for part in parts if len(part)]
@@ -36,21 +37,21 @@ def _importances(trials: pd.DataFrame) -> pd.DataFrame:
     from sklearn.ensemble import RandomForestRegressor
     from sklearn.inspection import permutation_importance
 
-    complete = trials[trials["score_mm"] > 0]
-    names = [name for name in complete if name.startswith(PREFIX) and complete[name].nunique(dropna=False) > 1]
-    if len(complete) < LEAST_TRIALS or not names:
+    scored = trials[np.isfinite(trials["first_part_mm"]) & (trials["first_part_mm"] > 0)]
+    names = [name for name in scored if name.startswith(PREFIX) and scored[name].nunique(dropna=False) > 1]
+    if len(scored) < LEAST_TRIALS or not names:
         return pd.DataFrame()
     # Names become numbers; a parameter that a trial does not have is a value of its own.
     numbers = pd.DataFrame(
         {
-            name: complete[name] if pd.api.types.is_float_dtype(complete[name]) else pd.factorize(complete[name])[0]
+            name: scored[name] if pd.api.types.is_float_dtype(scored[name]) else pd.factorize(scored[name])[0]
             for name in names
         }
     )
-    score = np.log(complete["score_mm"])
+    score = np.log(scored["first_part_mm"])
     forest = RandomForestRegressor(32, random_state=0).fit(numbers, score)
     found = permutation_importance(forest, numbers, score, n_repeats=5, random_state=0)
-    columns = {"importance": found.importances_mean, "spread": found.importances_std, "n_trials": len(complete)}
+    columns = {"importance": found.importances_mean, "spread": found.importances_std, "n_trials": len(scored)}
     table = pd.DataFrame({"parameter": [name.removeprefix(PREFIX) for name in names], **columns})
     return table.sort_values("importance", kind="stable", ascending=False)
 
@@ -72,7 +73,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
         axis.set_xlim(left=0)
         axis.set_title(fill(results.model_titles[str(model)], 16))
         axis.grid(visible=False, axis="y")
-    figure.supxlabel("permutation importance (drop of R2 of a forest that predicts the score of a trial)", fontsize=9)
+    figure.supxlabel("permutation importance (drop of R2 of a forest that predicts the error of a trial)", fontsize=9)
     heading(figure, results, "which parameters mattered in tuning", [TRAIN])
     return figure
 
@@ -80,8 +81,8 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
 FIGURE = FigureSpec(
     "importance",
     "Parameter importance",
-    "Which parameters decide the score of a trial: scikit-learn's permutation importance of a forest fitted to the "
-    "complete trials of a study. A few dozen trials tell the large from the small, no more.",
+    "Which parameters decide the error of a trial on the first fold: scikit-learn's permutation importance of a forest "
+    "fitted to the trials of a study. A few dozen trials tell the large from the small, no more.",
     frame,
     plot,
 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -28,6 +29,14 @@ OUTLIER = 8.0
 #: How far below the highest marker the base may be, in units of how far markers go aside: where the search starts.
 STARTS = (0.5, 1.0, 2.0, 4.0)
 REFINED_STARTS = 4
+#: An axis off z by less (rad) is z: the squares of such numbers may underflow.
+PARALLEL = 1e-15
+#: Estimates that are remembered: a study fits all its trials to the same few parts of `train`.
+REMEMBERED = 64
+
+
+#: The bytes of an array of doubles, and its shape.
+_Key = tuple[bytes, tuple[int, ...]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +61,7 @@ class BaseFrame:
     def _rotation(self) -> Rotation:
         cross, cosine = np.cross([0.0, 0.0, 1.0], self.axis), self.axis[2]
         sine = float(np.linalg.norm(cross))
-        if sine == 0:
+        if sine < PARALLEL:
             return Rotation.identity() if cosine > 0 else Rotation.from_rotvec([np.pi, 0, 0])
         return Rotation.from_rotvec(cross / sine * np.arctan2(sine, cosine))
 
@@ -76,7 +85,8 @@ def base_frame(commands: Array, points: Array, declared: Mapping[str, Any] | Non
     seen = sampled_rows(len(commands), MAX_ROWS_SEEN, seed=0)
     commands, moving = commands[seen], points[np.ix_(seen, ~still)]
     rows = _telling_rows(commands, moving)
-    return _estimated(commands[rows], moving[rows], origin, axis)
+    telling = np.asarray(commands[rows], dtype=np.float64), np.asarray(moving[rows], dtype=np.float64)
+    return _remembered(*((array.tobytes(), array.shape) for array in telling), origin.tobytes(), _bytes(axis))
 
 
 def _telling_rows(commands: Array, points: Array) -> Indices:
@@ -87,6 +97,13 @@ def _telling_rows(commands: Array, points: Array) -> Indices:
     rows = np.flatnonzero(good.all(axis=1)) if fit.degree else np.arange(len(commands))
     aside = np.linalg.norm(points[rows, -1] - np.median(points[rows, -1], axis=0), axis=1)
     return rows[np.argsort(aside, kind="stable")][:: max(1, len(rows) // MAX_ROWS)]
+
+
+@lru_cache(REMEMBERED)
+def _remembered(commands: _Key, points: _Key, origin: bytes, axis: bytes | None) -> BaseFrame:
+    """`_estimated`, of the bytes and shapes of its arguments."""
+    of_commands, of_points = (np.frombuffer(content).reshape(shape) for content, shape in (commands, points))
+    return _estimated(of_commands, of_points, np.frombuffer(origin), None if axis is None else np.frombuffer(axis))
 
 
 def _estimated(commands: Array, points: Array, origin: Array, axis: Array | None) -> BaseFrame:
@@ -137,6 +154,10 @@ def _starts(points: Array, within: Array, origin: Array, axis: Array | None) -> 
         start = middle + along * (height.max() - depth * aside)
         starts.append(BaseFrame(np.where(np.isnan(origin), start, origin), along))
     return starts
+
+
+def _bytes(array: Array | None) -> bytes | None:
+    return None if array is None else array.tobytes()
 
 
 def _unit(axis: Any) -> Array:

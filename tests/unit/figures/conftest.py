@@ -150,6 +150,7 @@ def trials(path: Path, n_complete: int) -> Path:
     rate = rng.uniform(0.1, 1.0, n)
     frame = pd.DataFrame({"trial": np.arange(n), "state": np.where(complete, "COMPLETE", "PRUNED")})
     frame["score_mm"] = np.where(complete, 1.0 + 5.0 * rate, np.nan)
+    frame["first_part_mm"] = 1.0 + 4.0 * rate
     frame["param_kind"] = rng.choice(["a", "b"], n)
     frame["param_depth"] = np.where(rng.random(n) < 0.5, np.nan, 3.0)
     frame["param_rate"] = rate

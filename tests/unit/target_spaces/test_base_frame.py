@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from softkin.target_spaces.base_frame import BaseFrame, base_frame
@@ -36,6 +36,7 @@ vectors = st.lists(st.floats(-1, 1), min_size=3, max_size=3).filter(lambda v: np
 
 
 @given(vectors, vectors)
+@example([0.0, 0.0, 1.0], [0.0, 7.8e-162, -1.0])
 def test_points_come_back_from_the_frame_of_the_base(origin: list[float], axis: list[float]) -> None:
     frame = BaseFrame(np.array(origin), unit(axis))
     points = np.random.default_rng(0).uniform(-50, 50, (6, 2, 3))
@@ -50,6 +51,19 @@ def test_origin_and_axis_are_found_where_nothing_is_declared(axis: list[float], 
     found = base_frame(*bent(true, n_markers=n_markers))
     np.testing.assert_allclose(found.origin, true.origin, atol=1e-3)
     np.testing.assert_allclose(found.axis, true.axis, atol=1e-5)
+
+
+def test_what_was_estimated_from_the_same_rows_is_remembered(monkeypatch: pytest.MonkeyPatch) -> None:
+    frames = [BaseFrame(np.array([1.0, 2.0, z]), unit([0.1, 0.0, 1.0])) for z in (3.0, 4.0)]
+    robots = [bent(frame, n_rows=90) for frame in frames]
+    found = [base_frame(*robot) for robot in robots]
+    assert found[0].origin[2] == pytest.approx(3.0, abs=1e-3)
+    assert found[1].origin[2] == pytest.approx(4.0, abs=1e-3)
+    monkeypatch.setattr("softkin.target_spaces.base_frame.least_squares", None)
+    for robot, frame in zip(robots, found, strict=True):
+        assert base_frame(*robot) == frame
+    with pytest.raises(TypeError):  # other rows are estimated anew
+        base_frame(robots[0][0][1:], robots[0][1][1:])
 
 
 @pytest.mark.parametrize("seed", range(5))

@@ -1,0 +1,61 @@
+"""What does it cost, and save, that a trial is cut short unless it is nearly the best?
+
+    python benchmarks/pruning.py [--dataset finger] [--models rf gb svr gp mlp] [--kept 100 50 10]
+
+Runs the study of the preset `tuned` of each model, as config/config.yaml has it, on a dataset of a finished run: once
+for each share `--kept` (percent) of the complete trials that a trial must be among to go on; 100 cuts none short.
+Prints the CPU seconds and the best score (mm).
+"""
+
+from __future__ import annotations
+
+import argparse
+import tempfile
+from pathlib import Path
+from unittest.mock import patch
+
+import yaml
+
+from softkin.datasets.table import read_subset
+from softkin.interface import TRAIN, TUNED
+from softkin.models import MODELS
+from softkin.tuning import KEPT_PERCENT, TuningSettings
+from softkin.tuning_models import Robot, SearchSettings, tune_model
+
+HOUSE = Path(__file__).parent.parent
+
+
+def main() -> None:
+    """Print a line per model and share."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--dataset", default="finger")
+    parser.add_argument("--models", nargs="+", default=["rf", "gb", "svr", "gp", "mlp"], choices=sorted(MODELS))
+    parser.add_argument("--kept", nargs="+", type=float, default=[100.0, 50.0, KEPT_PERCENT])
+    given = parser.parse_args()
+    config = yaml.safe_load((HOUSE / "config" / "config.yaml").read_text())
+    tuning, seed = config["tuning"], config["seed"]
+    train = read_subset(HOUSE / "results" / given.dataset / "table.parquet", TRAIN)
+    print(f"{'model':<7}{'kept %':>7}{'pruned':>8}{'CPU s':>8}{'best mm':>11}")
+    for model in given.models:
+        for kept in given.kept:
+            with tempfile.TemporaryDirectory() as folder, patch("softkin.tuning.KEPT_PERCENT", kept):
+                result, _ = tune_model(
+                    train,
+                    spec=MODELS[model],
+                    preset=TUNED,
+                    robot=Robot(base=None, standardised_norm=False),
+                    settings=TuningSettings(tuning["n_trials"], tuning["n_folds"], tuning["max_rows"], seed),
+                    search=SearchSettings(
+                        {TUNED: tuning["n_trials"]}, [TUNED], tuning["max_markers"], [], config["target_spaces"]
+                    ),
+                    study_file=Path(folder) / "study.db",
+                    code=[],
+                    threads=1,
+                )
+            pruned = (result.trials["state"] == "PRUNED").sum()
+            cpu = result.trials["cpu_seconds"].sum()
+            print(f"{model:<7}{kept:>7g}{pruned:>8}{cpu:>8.1f}{result.score_mm:>11.5f}", flush=True)
+
+
+if __name__ == "__main__":
+    main()
