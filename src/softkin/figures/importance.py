@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 #: With fewer trials there is nothing to learn from.
 LEAST_TRIALS = 10
 N_COLUMNS = 4
+#: Longer names (characters) go on two lines.
+LONG_NAME = 12
 PREFIX = "param_"
 
 
@@ -61,14 +63,15 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     models = list(frame.groupby("model", sort=False))
     n_columns = min(len(models), N_COLUMNS)
     n_rows = -(-len(models) // n_columns)
-    figure, axes = panels(n_rows, n_columns, PAGE, 1.0 + 1.9 * n_rows)
+    figure, axes = panels(n_rows, n_columns, PAGE, 1.0 + 2.4 * n_rows)
     places = [axis for row in axes for axis in row]
     for axis in places[len(models) :]:
         axis.set_axis_off()
     for axis, (model, rows) in zip(places, models, strict=False):
         colour, line = LOOKS[str(model)][0], {"linewidth": 0.8}
         axis.barh(range(len(rows)), rows["importance"], 0.7, xerr=rows["spread"], color=colour, error_kw=line)
-        axis.set_yticks(range(len(rows)), [name.replace("_", "_\n", 1) for name in rows["parameter"]], fontsize=6.5)
+        names = [name.replace("_", "_\n", 1) if len(name) > LONG_NAME else name for name in rows["parameter"]]
+        axis.set_yticks(range(len(rows)), names, fontsize=6.5)
         axis.set_ylim(len(rows) - 0.4, -0.6)
         axis.set_xlim(left=0)
         axis.set_title(fill(results.model_titles[str(model)], 16))
