@@ -6,7 +6,7 @@ export MLFLOW_DISABLE_TELEMETRY := true
 # Things run side by side, one core each: with more threads than that they wait for each other most of the time.
 export OMP_NUM_THREADS := 1
 
-.PHONY: run unlock new-robot test test-workflow test-others test-run lint ui store report gallery snakemake-report campaigns benchmark benchmark-large benchmark-pruning coverage standins
+.PHONY: run unlock new-robot test test-workflow test-others test-run lint ui store report gallery snakemake-report campaigns benchmark benchmark-large benchmark-pruning coverage numbers standins
 .PHONY: environment clean ui-screenshot
 
 run: .venv/installed
@@ -87,6 +87,10 @@ benchmark-pruning: .venv/installed
 # How long the stand-ins of all datasets take to simulate.
 standins: .venv/installed
 	$(BIN)/python benchmarks/standins.py
+
+# Every number of the README that a run decides, from a finished run of the default configuration.
+numbers: .venv/installed
+	$(BIN)/python benchmarks/numbers.py
 
 # The picture of the MLflow UI in the README, docs/mlflow_ui.png, from the store of a finished run.
 ui-screenshot: .venv/installed
