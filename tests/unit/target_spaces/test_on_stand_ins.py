@@ -18,8 +18,8 @@ GO_ON += [("lasso", {"degree": 2, "alpha": 1e-3}), ("huber", {"degree": 2, "epsi
 STAY = [("rf", {"n_estimators": 50}), ("svr", {})]
 ON_A_TREND = [(model, params | {"trend": trend}) for model, params in (*STAY, ("gb", {}), ("xgb", {}))
               for trend in ("linear", "quadratic")]  # fmt: skip
-ON_A_TREND += [("mlp", {"trend": "linear", "solver": "lbfgs", "activation": "tanh", "layers": 2, "width": 16, "alpha": 1e-2,
-                        "max_iter": 600})]  # fmt: skip
+NETWORK = {"solver": "lbfgs", "activation": "tanh", "layers": 2, "width": 16, "alpha": 1e-2, "max_iter": 600}
+ON_A_TREND += [("mlp", NETWORK | {"trend": "linear"})]
 #: What may be left, at most, of the error in positions.
 LARGEST_RATIO = {"tendon_finger": 0.2, "pneumatic_arm": 0.5}
 
