@@ -90,7 +90,7 @@ standins: .venv/installed
 
 # Every number of the README that a run decides, from a finished run of the default configuration.
 numbers: .venv/installed
-	$(BIN)/python benchmarks/numbers.py
+	$(BIN)/python benchmarks/readme_numbers.py
 
 # The picture of the MLflow UI in the README, docs/mlflow_ui.png, from the store of a finished run.
 ui-screenshot: .venv/installed

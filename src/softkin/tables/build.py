@@ -57,7 +57,7 @@ def build_tables(
     scores, per_marker = (marked(_together(paths), leaks) for paths in (point, markers))
     notes = _notes(sources, abouts, cards)
     cells = compare(read_published(published), scores, notes)
-    columns = compare_columns(cells) if f"{TUNED}_value" in cells else None
+    columns = compare_columns(cells, scores) if f"{TUNED}_value" in cells else None
     chosen = best = None
     if parameters:
         searched = searched_runs(dict(zip(studies, parameters, strict=True)))

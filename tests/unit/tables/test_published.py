@@ -67,14 +67,20 @@ def test_cells_are_compared_preset_by_preset() -> None:
 
 
 def test_the_best_of_a_column_faces_the_papers_best_among_the_models_that_were_run() -> None:
-    columns = compare_columns(compare(PUBLISHED, scores(), {})).set_index("metric")
+    columns = compare_columns(compare(PUBLISHED, scores(), {}), scores()).set_index("metric")
     assert columns.loc["rmse_mm", "printed"] == "10.09"
     assert columns.loc["rmse_mm", "printed_model"] == "gp"
     assert set(columns["verdict"]) == {"better"}
-    worse = compare_columns(compare(PUBLISHED, scores(mape_percent=200.0), {})).set_index("metric")
+    bad = scores(mape_percent=200.0)
+    worse = compare_columns(compare(PUBLISHED, bad, {}), bad).set_index("metric")
     assert worse.loc["mape_percent", "verdict"] == "worse"
     counts = summary(compare(PUBLISHED, scores(), {}), columns)
     assert counts[-1].startswith("tuned preset: 4 of 4 columns")
+    # A model that the paper does not have is one of ours.
+    huber = bad[bad["model"] == "gp"].assign(model="huber", mape_percent=100.0)
+    pool = pd.concat([bad, huber], ignore_index=True)
+    best = compare_columns(compare(PUBLISHED, pool, {}), pool).set_index("metric")
+    assert best.loc["mape_percent", ["tuned_model", "tuned_value", "verdict"]].tolist() == ["huber", 100.0, "better"]
 
 
 def test_a_preset_that_was_not_run_is_left_out() -> None:
@@ -88,8 +94,9 @@ def test_where_nothing_printed_was_run_the_tables_are_empty_and_say_so() -> None
     """A robot of one's own, or a stand-in."""
     row = {"dataset": "my_arm", "subset": "test", "model": "lr", "preset": "tuned"}
     metrics = dict.fromkeys(["rmse_mm", "mae_mm", "r2", "mape_percent"], 1.0)
-    cells = compare(PUBLISHED, pd.DataFrame([row | metrics]), {})
-    columns = compare_columns(cells)
+    mine = pd.DataFrame([row | metrics])
+    cells = compare(PUBLISHED, mine, {})
+    columns = compare_columns(cells, mine)
     assert len(cells) == len(columns) == 0
     assert "verdict" in columns
     assert summary(cells, columns) == ["nothing was run that the paper has printed"]

@@ -1,6 +1,6 @@
 """Every number of the README that a run of the default configuration decides, section by section.
 
-    python benchmarks/numbers.py
+    python benchmarks/readme_numbers.py
 
 Reads results/tables of a finished run, and results/{dataset}/data_card.json; prints, writes nothing.
 """
