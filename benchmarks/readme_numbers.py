@@ -59,7 +59,8 @@ def outside() -> None:
     wide = spaces[spaces["subset"] == EXTRAPOLATION].pivot_table(
         index="model", columns=["dataset", "target_space"], values="rmse_mm", sort=False
     )
-    ratios = pd.DataFrame({name: wide[name, "curvature"] / wide[name, "cartesian"] for name in spaces["dataset"].unique()})
+    names = spaces["dataset"].unique()
+    ratios = pd.DataFrame({name: wide[name, "curvature"] / wide[name, "cartesian"] for name in names})
     gains = int((ratios < 1).sum().sum())
     section("curvature over Cartesian, extrapolation RMSE", ratios, f"less than 1 in {gains} of {ratios.size}")
     forest = scores[(scores["subset"] == EXTRAPOLATION) & (scores["model"] == "rf")]

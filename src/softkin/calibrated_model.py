@@ -65,7 +65,7 @@ class CalibratedModel:
 
     def intervals(self, commands: Array, confidence_levels: Sequence[float]) -> Array:
         """Intervals (n_levels, n_rows, n_coordinates, 2) of each coordinate; levels ascending. By the chosen method
-        inside the training region, and outside it never narrower than that.
+        inside the training region, and outside it never narrower than split conformal prediction's.
         """
         commands = self._checked(commands)
         spreads = {}

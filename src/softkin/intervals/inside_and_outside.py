@@ -15,16 +15,18 @@ from softkin.intervals.rolling_shells import half_widths
 
 def intervals(evidence: ShellEvidence, confidence_levels: Sequence[float]) -> Array:
     """`evidence.inside`, or split conformal prediction, for commands inside, so that `test` is covered as often as
-    promised and not more; stretched to hold the interval of rolling shells for those outside. It is never narrower than
-    the calibrated one, hence its guarantee for commands like those of `train`.
+    promised and not more. Outside, the interval of rolling shells, at least as wide as that of split conformal
+    prediction; not as a method of inside that grows with the distance, which knows nothing of errors out there.
+
+    Of rows exchangeable with the n of `train` at most a share 2 / (n + 1) lies outside (one may reach farthest, one be
+    farthest from its neighbours): a method of inside that is not split conformal prediction loses no more than that.
     """
     deployed, bounds = evidence.deployed, evidence.inside
+    limits = conformal_limits(np.abs(deployed.truth - deployed.calibration), confidence_levels)[:, None]
     if bounds is None:
-        limits = conformal_limits(np.abs(deployed.truth - deployed.calibration), confidence_levels)[:, None]
         bounds = around(deployed.new, np.broadcast_to(limits, (len(limits), *deployed.new.shape)))
-    beyond = around(deployed.new, half_widths(evidence, confidence_levels))
-    lower, upper = np.minimum(bounds[..., 0], beyond[..., 0]), np.maximum(bounds[..., 1], beyond[..., 1])
-    return np.where(outside(evidence)[:, None, None], np.stack([lower, upper], axis=-1), bounds)
+    beyond = around(deployed.new, np.maximum(limits, half_widths(evidence, confidence_levels)))
+    return np.where(outside(evidence)[:, None, None], beyond, bounds)
 
 
 def outside(evidence: ShellEvidence) -> NDArray[np.bool_]:

@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -47,6 +49,28 @@ def test_one_interval_is_split_conformal_inside_and_never_narrower_outside() -> 
     np.testing.assert_allclose(one[:, ~out], split[:, ~out], atol=1e-9)
     width, least, by_shells = (np.diff(bounds, axis=-1)[:, out] for bounds in (one, split, rolling))
     np.testing.assert_allclose(width, np.maximum(least, by_shells), atol=1e-9)
+
+
+def test_a_method_of_inside_that_grows_with_the_distance_has_no_say_outside() -> None:
+    """A real finger's errors do not grow with it: intervals were four times as wide as the oracle's."""
+    evidence = shell_evidence(88)
+    grown = INTERVAL_METHODS["scp_distance"].intervals(evidence.deployed, LEVELS)
+    found = INTERVAL_METHODS["auto"].intervals(replace(evidence, inside=grown), LEVELS)
+    out = outside(evidence)
+    np.testing.assert_array_equal(found[:, ~out], grown[:, ~out])
+    np.testing.assert_array_equal(found[:, out], INTERVAL_METHODS["auto"].intervals(evidence, LEVELS)[:, out])
+
+
+def test_of_rows_like_those_of_train_hardly_any_lies_outside() -> None:
+    """At most 2 / (n + 1) of them on average, over 400 draws of 30 rows and 20 new ones."""
+    evidence, n, n_new = shell_evidence(88), 30, 20
+    rng, counts = np.random.default_rng(1), []
+    for _ in range(400):
+        rows = rng.uniform(-1, 1, (n + n_new, 2))
+        deployed = replace(evidence.deployed, train_commands=rows[:n], new_commands=rows[n:])
+        counts.append(outside(replace(evidence, deployed=deployed)).mean())
+    mean, error = np.mean(counts), np.std(counts) / np.sqrt(len(counts))
+    assert 0 < mean <= 2 / (n + 1) + 3 * error
 
 
 def test_a_command_in_a_hole_of_train_is_outside() -> None:
