@@ -7,6 +7,7 @@ from typing import Any, Self
 
 import numpy as np
 from sklearn.base import BaseEstimator, TransformerMixin
+from sklearn.preprocessing import StandardScaler
 
 from softkin.estimators.position_scaler import PositionScaler
 from softkin.interface import CONSTANT_RANGE_MM, Array, SoftkinError, TargetSpace
@@ -18,7 +19,8 @@ ROUNDING = 1e-9
 
 
 class CurvatureCoordinates(TransformerMixin, BaseEstimator):  # type: ignore[misc]
-    """Positions -> standardised arcs of the markers that move; those that never move come back as they were.
+    """Positions -> standardised arcs of the markers that move, then the standardised coordinates, of those that do not,
+    which tremble all the same: a model in positions predicts them, too. Others come back as they were.
 
     `base` may declare `origin` and `axis`. Coordinates of an arc that never vary are left out, whatever
     `skip_constant` says of positions.
@@ -42,25 +44,39 @@ class CurvatureCoordinates(TransformerMixin, BaseEstimator):  # type: ignore[mis
         if not self.moving_.any():
             raise SoftkinError("no marker moves on `train`, so there are no arcs; mend: target_spaces: [cartesian]")
         self.scaler_ = PositionScaler(skip_constant=True, least_range=ROUNDING).fit(self._arcs(points))
+        self.n_arcs_ = int(self.scaler_.kept_.sum())
+        self.trembling_ = ~np.repeat(self.moving_, 3) & (np.ptp(X, axis=0) > 0)
+        self.tremble_scaler_ = StandardScaler().fit(X[:, self.trembling_]) if self.trembling_.any() else None
         return self
 
     def transform(self, X: Array) -> Array:
-        """Positions (n_rows, n_coordinates) in mm -> standardised arcs (n_rows, n_varying)."""
-        return self.scaler_.transform(self._arcs(_points(X)))
+        """Positions (n_rows, n_coordinates) in mm -> standardised arcs (n_rows, n_varying) and what trembles."""
+        arcs = self.scaler_.transform(self._arcs(_points(X)))
+        if self.tremble_scaler_ is None:
+            return arcs
+        return np.column_stack([arcs, self.tremble_scaler_.transform(X[:, self.trembling_])])
 
     def inverse_transform(self, X: Array) -> Array:
-        """Standardised arcs -> positions in mm."""
+        """Standardised arcs, and what trembles -> positions in mm."""
+        arcs, rest = np.split(X, [self.n_arcs_], axis=1)
         points = np.tile(self.resting_, (len(X), 1, 1))
-        points[:, self.moving_] = self.frame_.from_base(from_arcs(_points(self.scaler_.inverse_transform(X))))
-        return points.reshape(len(X), -1)
+        points[:, self.moving_] = self.frame_.from_base(from_arcs(_points(self.scaler_.inverse_transform(arcs))))
+        positions = points.reshape(len(X), -1)
+        if self.tremble_scaler_ is not None:
+            positions[:, self.trembling_] = self.tremble_scaler_.inverse_transform(rest)
+        return positions
 
     def inverse_spread(self, X: Array, spread: Array) -> Array:
         """Standardised spreads around standardised arcs X -> spreads (n_rows, n_coordinates) in mm, to first order."""
+        (X, _), (spread, rest) = (np.split(whole, [self.n_arcs_], axis=1) for whole in (X, spread))
         arcs = _points(self.scaler_.inverse_transform(X))
         along = spread_of_points(arcs, _points(self.scaler_.inverse_spread(X, spread)), self.frame_.axes().T)
         result = np.zeros((len(X), len(self.resting_), 3))
         result[:, self.moving_] = along
-        return result.reshape(len(X), -1)
+        flat = result.reshape(len(X), -1)
+        if self.tremble_scaler_ is not None:
+            flat[:, self.trembling_] = rest * self.tremble_scaler_.scale_
+        return flat
 
     def _arcs(self, points: Array) -> Array:
         moving = self.frame_.to_base(points[:, self.moving_])
