@@ -6,7 +6,7 @@ export MLFLOW_DISABLE_TELEMETRY := true
 # Things run side by side, one core each: with more threads than that they wait for each other most of the time.
 export OMP_NUM_THREADS := 1
 
-.PHONY: run unlock new-robot test test-workflow test-others test-run lint ui store report gallery snakemake-report campaigns benchmark benchmark-large benchmark-pruning coverage numbers standins
+.PHONY: run unlock new-robot test test-workflow test-others test-run lint ui store report gallery snakemake-report campaigns benchmark benchmark-large benchmark-pruning benchmark-shells coverage numbers standins
 .PHONY: environment clean ui-screenshot
 
 run: .venv/installed
@@ -83,6 +83,10 @@ benchmark-large: .venv/installed
 # What cutting trials short costs and saves, on FINGER of a finished run.
 benchmark-pruning: .venv/installed
 	$(BIN)/python benchmarks/pruning.py
+
+# Whether intervals made from shells of `train` hold outside it, on simulated robots.
+benchmark-shells: .venv/installed
+	$(BIN)/python benchmarks/shells.py
 
 # How long the stand-ins of all datasets take to simulate.
 standins: .venv/installed

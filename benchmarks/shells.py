@@ -1,0 +1,129 @@
+"""Do intervals made from shells of `train` hold outside it, and how wide are they?
+
+    python benchmarks/shells.py [--rows 500] [--seeds 2] [--copies 1]
+
+Simulates each stand-in with so many rows, seed by seed, fits every model in either target space with the first
+parameters that its studies try, and puts `auto` around it: coverage of extrapolation at 90 % and the Winkler score over
+the oracle's. Beside it the same, stretched by the method normalised by distance where that is wider. Prints a line per
+robot, space and model (means over seeds), and in how many cases 90 % are covered at no more than 1.5 times the
+oracle's score. `--rows 40 --copies 10` makes a robot of as few distinct commands as ELASTICA has.
+"""
+
+from __future__ import annotations
+
+import argparse
+import itertools
+import logging
+import warnings
+
+import numpy as np
+from optuna.trial import FixedTrial
+
+from softkin.fitting import fit_quietly, kinematic_model
+from softkin.interface import (
+    EXTRAPOLATION,
+    TEST,
+    TRAIN,
+    VALIDATION,
+    Evidence,
+    Samples,
+    Shell,
+    ShellEvidence,
+    informative_coordinates,
+)
+from softkin.intervals import INTERVAL_METHODS
+from softkin.metrics.interval import covered, winkler_scores
+from softkin.models import MODELS
+from softkin.refitting_shells import cores_and_shells
+from softkin.shells import command_norm
+from softkin.standins import STANDINS
+from softkin.standins.simulating import simulate
+from softkin.target_spaces import TARGET_SPACES
+
+LEVEL, LARGEST_RATIO = 0.9, 1.5
+CORE_SHARES = (0.5, 0.7, 0.85)
+SHAPES = ("auto", "stretched by distance")
+
+
+def judged(subsets: dict[str, Samples], model: str, space: str, copies: int) -> dict[str, tuple[float, float]]:
+    """Coverage of extrapolation, and Winkler score over the oracle's, by shape of the interval."""
+    spec = MODELS[model]
+    params = spec.search_space(FixedTrial(dict(spec.first_trials[0])))
+    train, validation = subsets[TRAIN], subsets[VALIDATION]
+    if copies > 1:  # all of the inside, again and again, in calibration too
+        parts = [subsets[name] for name in (TRAIN, VALIDATION, TEST)]
+        commands, positions = (
+            np.concatenate([getattr(part, name) for part in parts]) for name in ("commands", "positions")
+        )
+        train = validation = Samples(np.tile(commands, (copies, 1)), np.tile(positions, (copies, 1)))
+    new = subsets[EXTRAPOLATION]
+
+    def fitted(rows: np.ndarray) -> object:
+        estimator = kinematic_model(spec, params, skip_constant=True, seed=0, threads=1, target_space=space)
+        fit_quietly(estimator, Samples(train.commands[rows], train.positions[rows]), 1)
+        return estimator
+
+    norm = command_norm(train.commands, standardised=False).of
+    whole = fitted(np.arange(len(train)))
+    deployed = Evidence(
+        whole.predict(validation.commands),
+        validation.positions,
+        whole.predict(new.commands),
+        train_commands=train.commands,
+        calibration_commands=validation.commands,
+        new_commands=new.commands,
+    )
+    shells = [
+        Shell(
+            train.commands[core],
+            train.commands[shell],
+            fitted(core).predict(train.commands[shell]),
+            train.positions[shell],
+        )
+        for core, shell in cores_and_shells(norm(train.commands), float(norm(new.commands).max()), CORE_SHARES)
+    ]
+    bounds = INTERVAL_METHODS["auto"].intervals(ShellEvidence(deployed, shells, norm), [LEVEL])[0]
+    grown = INTERVAL_METHODS["scp_distance"].intervals(deployed, [LEVEL])[0]
+    wider = np.stack([np.minimum(bounds[..., 0], grown[..., 0]), np.maximum(bounds[..., 1], grown[..., 1])], axis=-1)
+    off = np.quantile(np.abs(new.positions - deployed.new), LEVEL, axis=0, method="higher")
+    oracle = np.stack([deployed.new - off, deployed.new + off], axis=-1)
+    moving = informative_coordinates(train.positions)
+    least = winkler_scores(new.positions, oracle, LEVEL)[:, moving].mean()
+    return {
+        shape: (
+            float(covered(new.positions, found)[:, moving].mean()),
+            float(winkler_scores(new.positions, found, LEVEL)[:, moving].mean() / least),
+        )
+        for shape, found in zip(SHAPES, (bounds, wider), strict=True)
+    }
+
+
+def main() -> None:
+    """Simulate, fit, judge, print."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--rows", type=int, default=500)
+    parser.add_argument("--seeds", type=int, default=2)
+    parser.add_argument("--copies", type=int, default=1)
+    parser.add_argument("--models", nargs="+", default=list(MODELS), choices=list(MODELS))
+    given = parser.parse_args()
+    warnings.filterwarnings("ignore")
+    logging.disable(logging.CRITICAL)
+    holds: dict[tuple[str, str], list[bool]] = {}
+    print(f"{'robot':<26}{'space':<11}{'model':<7}" + "".join(f"{shape:>24}" for shape in SHAPES))
+    for robot in STANDINS:
+        simulated = [simulate(robot, n_rows=given.rows, seed=seed) for seed in range(given.seeds)]
+        for space, model in itertools.product(TARGET_SPACES, given.models):
+            found = [judged(subsets, model, space, given.copies) for subsets in simulated]
+            line = f"{robot:<26}{space:<11}{model:<7}"
+            for shape in SHAPES:
+                pairs = [one[shape] for one in found]
+                coverage, ratio = np.mean(pairs, axis=0)
+                line += f"{coverage:>14.3f}, {ratio:>8.2f}"
+                holds.setdefault((robot, shape), []).extend(c >= LEVEL and r <= LARGEST_RATIO for c, r in pairs)
+            print(line, flush=True)
+    for (robot, shape), cases in holds.items():
+        print(f"{robot}, {shape}: both in {sum(cases)} of {len(cases)}")
+
+
+if __name__ == "__main__":
+    main()
