@@ -1,6 +1,6 @@
 """Do intervals made from shells of `train` hold outside it, and how wide are they?
 
-    python benchmarks/shells.py [--rows 500] [--seeds 2] [--copies 1]
+    python benchmarks/shells.py [--rows 400] [--seeds 2] [--copies 1]
 
 Simulates each stand-in with so many rows, seed by seed, fits every model in either target space with the first
 parameters that its studies try, and puts `auto` around it: coverage of extrapolation at 90 % and the Winkler score over
@@ -101,7 +101,7 @@ def judged(subsets: dict[str, Samples], model: str, space: str, copies: int) -> 
 def main() -> None:
     """Simulate, fit, judge, print."""
     parser = argparse.ArgumentParser()
-    parser.add_argument("--rows", type=int, default=500)
+    parser.add_argument("--rows", type=int, default=400)
     parser.add_argument("--seeds", type=int, default=2)
     parser.add_argument("--copies", type=int, default=1)
     parser.add_argument("--models", nargs="+", default=list(MODELS), choices=list(MODELS))
