@@ -65,7 +65,8 @@ class CalibratedModel:
 
     def intervals(self, commands: Array, confidence_levels: Sequence[float]) -> Array:
         """Intervals (n_levels, n_rows, n_coordinates, 2) of each coordinate; levels ascending. By the chosen method
-        inside the training region, and outside it never narrower than split conformal prediction's.
+        inside the training region, and outside it never narrower than split conformal prediction's, nor, where that
+        tells how unsure the model is, than the chosen method's.
         """
         commands = self._checked(commands)
         spreads = {}
@@ -75,7 +76,8 @@ class CalibratedModel:
         bounds = self.method.intervals(evidence, confidence_levels)
         if self.norm is None:
             return bounds
-        return inside_and_outside.intervals(ShellEvidence(evidence, self.shells, self.norm, bounds), confidence_levels)
+        shells = ShellEvidence(evidence, self.shells, self.norm, bounds, self.method.is_informed)
+        return inside_and_outside.intervals(shells, confidence_levels)
 
     def is_outside(self, commands: Array) -> NDArray[np.bool_]:
         """Which commands (n_rows,) lie outside the training region, where nothing is promised."""

@@ -39,7 +39,8 @@ def calibrate(
             model, preset = run
             n_models += 1
             if isinstance(evidence, ShellEvidence) and run in calibrated:
-                evidence = replace(evidence, inside=calibrated[run])
+                informed = inside[run].is_informed
+                evidence = replace(evidence, inside=calibrated[run], inside_is_informed=informed)
             bounds = method.intervals(evidence, evidences.levels)
             for subset, mine in evidences.by_subset(bounds, axis=1).items():
                 for level, of_level in zip(evidences.levels, mine, strict=True):

@@ -174,13 +174,15 @@ class ShellEvidence:
     """What a method for commands outside `train` sees: the `deployed` model, fitted on all of `train`, and the same
     model fitted on its cores, the smallest first. `norm` takes commands (n_rows, n_commands) to how far out they lie
     (n_rows,). `inside` (n_levels, n_rows, n_coordinates, 2) are the bounds that new rows get inside the training
-    region; None: those of split conformal prediction.
+    region; None: those of split conformal prediction. `inside_is_informed`: they widen where the model is unsure, not
+    with the distance alone.
     """
 
     deployed: Evidence
     shells: Sequence[Shell]
     norm: Callable[[Array], Array]
     inside: Array | None = None
+    inside_is_informed: bool = False
 
     @property
     def truth(self) -> Array:
@@ -216,6 +218,11 @@ class IntervalMethod:
     rank: Callable[[int, float], int | None] | None = None
     has_constant_width: bool = False
     crps: Callable[[Any, Array], Array] | None = None
+
+    @property
+    def is_informed(self) -> bool:
+        """Whether it widens where the model itself is unsure."""
+        return self.on in ("spreads", "predictive")
 
 
 @dataclass(frozen=True, slots=True)

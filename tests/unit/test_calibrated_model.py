@@ -73,9 +73,7 @@ def test_it_covers_new_rows(files: Path, method: str) -> None:
 
 
 def test_one_interval_for_everywhere(files: Path) -> None:
-    """Inside it is the chosen method's, outside never narrower than plain split conformal prediction's, and wider where
-    that is not enough.
-    """
+    """Inside it is the chosen method's, outside never narrower, and wide enough where that of inside is not."""
     plain, robot = bundled(files, "scp_spread"), bundled(files, "scp_spread", outside="auto")
     far = bending_arm(400, n_markers=2, seed=9, reach=1.6)
     out = robot.is_outside(far.commands)
@@ -83,12 +81,12 @@ def test_one_interval_for_everywhere(files: Path) -> None:
     assert out[np.linalg.norm(far.commands, axis=1) > np.sqrt(2)].all()
     narrow, wide = (one.intervals(far.commands, [0.8, 0.9]) for one in (plain, robot))
     np.testing.assert_array_equal(narrow[:, ~out], wide[:, ~out])
-    least = bundled(files, "scp_mapie").intervals(far.commands, [0.8, 0.9])[:, out]
-    assert (wide[:, out][..., 0] <= least[..., 0] + 1e-9).all()
-    assert (wide[:, out][..., 1] >= least[..., 1] - 1e-9).all()
-    true = far.positions[out, 3:]
-    covers = [((b[1, :, 3:, 0] <= true) & (true <= b[1, :, 3:, 1])).mean() for b in (least, wide[:, out])]
-    assert covers[1] > covers[0] + 0.3
+    assert (wide[..., 0] <= narrow[..., 0]).all()
+    assert (wide[..., 1] >= narrow[..., 1]).all()
+    covers = [
+        ((b[1, ..., 0] <= far.positions) & (far.positions <= b[1, ..., 1]))[out, 3:].mean() for b in (narrow, wide)
+    ]
+    assert covers[1] > max(0.86, covers[0] + 0.03)
     np.testing.assert_array_equal(plain.is_outside(bending_arm(50, seed=3).commands * 0.3), False)
 
 

@@ -15,17 +15,20 @@ from softkin.intervals.rolling_shells import half_widths
 
 def intervals(evidence: ShellEvidence, confidence_levels: Sequence[float]) -> Array:
     """`evidence.inside`, or split conformal prediction, for commands inside, so that `test` is covered as often as
-    promised and not more. Outside, the interval of rolling shells, at least as wide as that of split conformal
-    prediction; not as a method of inside that grows with the distance, which knows nothing of errors out there.
+    promised and not more. Outside, the interval of rolling shells, stretched to hold that of split conformal prediction
+    and `inside`, where that is informed: one that grows with the distance alone knows nothing of errors out there.
 
     Of rows exchangeable with the n of `train` at most a share 2 / (n + 1) lies outside (one may reach farthest, one be
-    farthest from its neighbours): a method of inside that is not split conformal prediction loses no more than that.
+    farthest from its neighbours): a method of inside that is not held there loses no more than that.
     """
     deployed, bounds = evidence.deployed, evidence.inside
     limits = conformal_limits(np.abs(deployed.truth - deployed.calibration), confidence_levels)[:, None]
     if bounds is None:
         bounds = around(deployed.new, np.broadcast_to(limits, (len(limits), *deployed.new.shape)))
     beyond = around(deployed.new, np.maximum(limits, half_widths(evidence, confidence_levels)))
+    if evidence.inside_is_informed:
+        lower, upper = np.minimum(bounds[..., 0], beyond[..., 0]), np.maximum(bounds[..., 1], beyond[..., 1])
+        beyond = np.stack([lower, upper], axis=-1)
     return np.where(outside(evidence)[:, None, None], beyond, bounds)
 
 
