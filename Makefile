@@ -92,7 +92,7 @@ benchmark-shells: .venv/installed
 standins: .venv/installed
 	$(BIN)/python benchmarks/standins.py
 
-# Every number of the README that a run decides, from a finished run of the default configuration.
+# What the README's numbers are read from, of a finished run of the default configuration.
 numbers: .venv/installed
 	$(BIN)/python benchmarks/readme_numbers.py
 

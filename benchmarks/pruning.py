@@ -34,6 +34,7 @@ def main() -> None:
     given = parser.parse_args()
     config = yaml.safe_load((HOUSE / "config" / "config.yaml").read_text())
     tuning, seed = config["tuning"], config["seed"]
+    source = yaml.safe_load((HOUSE / "config" / "datasets.yaml").read_text())["sources"][given.dataset]
     train = read_subset(HOUSE / "results" / given.dataset / "table.parquet", TRAIN)
     print(f"{'model':<7}{'kept %':>7}{'pruned':>8}{'CPU s':>8}{'best mm':>11}")
     for model in given.models:
@@ -43,7 +44,7 @@ def main() -> None:
                     train,
                     spec=MODELS[model],
                     preset=TUNED,
-                    robot=Robot(base=None, standardised_norm=False),
+                    robot=Robot(base=source.get("base"), standardised_norm="split" in source),
                     settings=TuningSettings(tuning["n_trials"], tuning["n_folds"], tuning["max_rows"], seed),
                     search=SearchSettings(
                         {TUNED: tuning["n_trials"]}, [TUNED], tuning["max_markers"], [], config["target_spaces"]

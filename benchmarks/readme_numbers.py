@@ -1,8 +1,8 @@
-"""Every number of the README that a run of the default configuration decides, section by section.
+"""What the tables of a run of the default configuration say for the README, section by section.
 
     python benchmarks/readme_numbers.py
 
-Reads results/tables of a finished run, and results/{dataset}/data_card.json; prints, writes nothing.
+Reads results/tables of a finished run; prints, writes nothing. Coverage over re-splits is `make coverage`.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ LEVEL = 0.9
 
 
 def table(name: str) -> pd.DataFrame:
-    """A table of the run, its verdict-less cells as empty strings."""
+    """A table of the run."""
     return pd.read_csv(TABLES / f"{name}.csv")
 
 

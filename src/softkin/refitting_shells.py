@@ -23,7 +23,7 @@ logger = logging.getLogger("softkin")
 #: A core of a smaller share of `train` says little of a model of all of it.
 LEAST_CORE_SHARE = 0.2
 #: Two cores whose shares differ by less say the same.
-ALIKE = 0.05
+ALIKE = 0.03
 
 
 @dataclass(frozen=True, slots=True)
