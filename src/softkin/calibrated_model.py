@@ -76,7 +76,7 @@ class CalibratedModel:
         bounds = self.method.intervals(evidence, confidence_levels)
         if self.norm is None:
             return bounds
-        shells = ShellEvidence(evidence, self.shells, self.norm, bounds, self.method.is_informed)
+        shells = ShellEvidence(evidence, self.shells, self.norm, bounds, inside_and_outside.is_informed(self.method))
         return inside_and_outside.intervals(shells, confidence_levels)
 
     def is_outside(self, commands: Array) -> NDArray[np.bool_]:

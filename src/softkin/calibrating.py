@@ -13,6 +13,7 @@ from softkin.bounds import bounds_frame
 from softkin.evidence import Evidences, Run
 from softkin.files import replacing
 from softkin.interface import IntervalMethod, ShellEvidence
+from softkin.intervals.inside_and_outside import is_informed
 
 logger = logging.getLogger("softkin")
 
@@ -39,7 +40,7 @@ def calibrate(
             model, preset = run
             n_models += 1
             if isinstance(evidence, ShellEvidence) and run in calibrated:
-                informed = inside[run].is_informed
+                informed = is_informed(inside[run])
                 evidence = replace(evidence, inside=calibrated[run], inside_is_informed=informed)
             bounds = method.intervals(evidence, evidences.levels)
             for subset, mine in evidences.by_subset(bounds, axis=1).items():

@@ -219,11 +219,6 @@ class IntervalMethod:
     has_constant_width: bool = False
     crps: Callable[[Any, Array], Array] | None = None
 
-    @property
-    def is_informed(self) -> bool:
-        """Whether it widens where the model itself is unsure."""
-        return self.on in ("spreads", "predictive")
-
 
 @dataclass(frozen=True, slots=True)
 class Region:

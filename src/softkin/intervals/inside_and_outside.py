@@ -32,6 +32,11 @@ def intervals(evidence: ShellEvidence, confidence_levels: Sequence[float]) -> Ar
     return np.where(outside(evidence)[:, None, None], beyond, bounds)
 
 
+def is_informed(method: IntervalMethod) -> bool:
+    """Whether its intervals widen where the model itself is unsure."""
+    return method.on in ("spreads", "predictive")
+
+
 def outside(evidence: ShellEvidence) -> NDArray[np.bool_]:
     """Which new commands (n_rows,) lie outside the training region: farther out than any of `train`, or, in
     standardised command space, farther from `train` than any command of it lies from the others.
