@@ -41,7 +41,7 @@ from softkin.standins.simulating import simulate
 from softkin.target_spaces import TARGET_SPACES
 
 LEVEL, LARGEST_RATIO = 0.9, 1.5
-CORE_SHARES = (0.5, 0.7, 0.85)
+CORE_SHARES = (0.6, 0.7, 0.8, 0.9)
 SHAPES = ("auto", "stretched by distance")
 
 

@@ -8,10 +8,10 @@ import numpy as np
 
 from softkin.interface import Array, ShellEvidence
 
-#: Errors smaller than this share of a coordinate's median one count as that: their logarithm says nothing.
-LEAST_SHARE = 1e-3
 #: Smallest error, mm.
 TINY_MM = 1e-12
+#: What keeps terms that no row tells apart (the reach of one core) at 0.
+RIDGE = 1e-8
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,8 +72,8 @@ def shell_distances(evidence: ShellEvidence) -> list[tuple[float, Array]]:
 
 
 def growth_laws(evidence: ShellEvidence) -> list[Growth]:
-    """Two laws: one of each coordinate, and one that all share, which few rows tell better. By least squares of the
-    logarithm of the errors, of each coordinate and of all in units of their 90 % quantiles; each shell counts alike.
+    """Two laws: one of each coordinate, and one that all share, which few rows tell better. Fitted to the errors of
+    each coordinate, and to those of all in units of their 90 % quantiles; each shell counts alike.
     """
     errors = np.concatenate([np.abs(shell.truth - shell.predicted) for shell in evidence.shells])
     places = shell_distances(evidence)
@@ -85,23 +85,28 @@ def growth_laws(evidence: ShellEvidence) -> list[Growth]:
     n_coordinates = errors.shape[1]
     laws = []
     for columns in (errors, together[:, None]):
-        least = np.maximum(LEAST_SHARE * np.median(columns, axis=0), TINY_MM)
-        slopes = np.array([law(column, reaches, distances, weights) for column in np.maximum(columns, least).T])
+        slopes = np.array([law(column, reaches, distances, weights) for column in np.maximum(columns, TINY_MM).T])
         by_reach, by_distance, bend = np.broadcast_to(slopes, (n_coordinates, 3)).T
         laws.append(Growth(by_reach, by_distance, bend, max(core for core, _ in places), float(distances.max())))
     return laws
 
 
 def law(errors: Array, log_reaches: Array, log_distances: Array, weights: Array) -> tuple[float, float, float]:
-    """Slope of log(errors) (n_rows,), which are above 0, in reach; slope and bend in distance, rising as far as there
-    are rows: without a bend where it would fall there, without a slope where that would.
+    """Slope of the logarithm of the mean error in reach; slope and bend in distance, rising as far as there are rows:
+    without a bend where it would fall there, without a slope where that would. `errors` (n_rows,) are above 0.
+
+    By maximum likelihood of exponential errors (a gamma regression with a logarithmic link). Least squares of their
+    logarithms would heed most the smallest errors, which tell nothing: those that cross zero.
     """
-    roots, logs = np.sqrt(weights), np.log(errors)
-    terms = np.column_stack([np.ones_like(logs), log_reaches, log_distances, log_distances**2])
-    found = np.zeros(4)
-    for n_terms in (4, 3, 2):
+    from sklearn.linear_model import GammaRegressor
+
+    terms = np.column_stack([log_reaches, log_distances, log_distances**2])
+    found = np.zeros(3)
+    for n_terms in (3, 2, 1):
+        glm = GammaRegressor(alpha=RIDGE, solver="newton-cholesky", max_iter=300)
+        glm.fit(terms[:, :n_terms], errors / errors.mean(), sample_weight=weights)
         found[:] = 0.0
-        found[:n_terms] = np.linalg.lstsq(terms[:, :n_terms] * roots[:, None], logs * roots)[0]
-        if found[2] >= 0 and found[2] + 2 * found[3] * log_distances.max() >= 0:
+        found[:n_terms] = glm.coef_
+        if found[1] >= 0 and found[1] + 2 * found[2] * log_distances.max() >= 0:
             break
-    return float(found[1]), float(found[2]), float(found[3])
+    return float(found[0]), float(found[1]), float(found[2])

@@ -31,7 +31,6 @@ rule tune:
         ],
         robot=robot,
         tuning=config["tuning"],
-        core_shares=config["shells"]["core_shares"],
         target_spaces=config["target_spaces"],
         objective=config["objective"],
         seed=config["seed"],

@@ -21,7 +21,7 @@ with job(snakemake.log[0], f"tune {dataset} {model}"):
             {preset: n_trials[preset] for preset in given.presets},
             {TUNED, *given.presets, *([] if given.objective == INTERPOLATION else [OUTER])},
             tuning["max_markers"],
-            given.core_shares,
+            tuning["core_shares"],
             given.target_spaces,
         ),
         studies=dict(zip(given.presets, given.studies, strict=True)),
