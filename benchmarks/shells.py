@@ -1,12 +1,13 @@
 """Do intervals made from shells of `train` hold outside it, and how wide are they?
 
-    python benchmarks/shells.py [--rows 400] [--seeds 2] [--copies 1]
+    python benchmarks/shells.py [--rows 400] [--seeds 2] [--copies 1] [--stuck 0]
 
 Simulates each stand-in with so many rows, seed by seed, fits every model in either target space with the first
 parameters that its studies try, and puts `auto` around it: coverage of extrapolation at 90 % and the Winkler score over
 the oracle's. Beside it the same, stretched by the method normalised by distance where that is wider. Prints a line per
 robot, space and model (means over seeds), and in how many cases 90 % are covered at no more than 1.5 times the
-oracle's score. `--rows 40 --copies 10 --seeds 4` makes robots of as few distinct commands as ELASTICA has.
+oracle's score. `--rows 40 --copies 10 --seeds 4` makes robots of as few distinct commands as ELASTICA has; `--stuck 0.01`
+such as stay in the pose before in 1 % of all rows, as ABAQUS does.
 """
 
 from __future__ import annotations
@@ -98,12 +99,21 @@ def judged(subsets: dict[str, Samples], model: str, space: str, copies: int) -> 
     }
 
 
+def stuck(samples: Samples, share: float, seed: int) -> Samples:
+    """A share of the rows in the pose of the row before."""
+    rows = 1 + np.random.default_rng(seed).choice(len(samples) - 1, round(share * len(samples)), replace=False)
+    positions = samples.positions.copy()
+    positions[rows] = samples.positions[rows - 1]
+    return Samples(samples.commands, positions)
+
+
 def main() -> None:
     """Simulate, fit, judge, print."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--rows", type=int, default=400)
     parser.add_argument("--seeds", type=int, default=2)
     parser.add_argument("--copies", type=int, default=1)
+    parser.add_argument("--stuck", type=float, default=0.0)
     parser.add_argument("--models", nargs="+", default=list(MODELS), choices=list(MODELS))
     given = parser.parse_args()
     warnings.filterwarnings("ignore")
@@ -111,7 +121,13 @@ def main() -> None:
     holds: dict[tuple[str, str], list[bool]] = {}
     print(f"{'robot':<26}{'space':<11}{'model':<7}" + "".join(f"{shape:>24}" for shape in SHAPES))
     for robot in STANDINS:
-        simulated = [simulate(robot, n_rows=given.rows, seed=seed) for seed in range(given.seeds)]
+        simulated = [
+            {
+                name: stuck(rows, given.stuck, seed)
+                for name, rows in simulate(robot, n_rows=given.rows, seed=seed).items()
+            }
+            for seed in range(given.seeds)
+        ]
         for space, model in itertools.product(TARGET_SPACES, given.models):
             found = [judged(subsets, model, space, given.copies) for subsets in simulated]
             line = f"{robot:<26}{space:<11}{model:<7}"

@@ -12,6 +12,9 @@ from softkin.interface import Array, ShellEvidence
 TINY_MM = 1e-12
 #: What keeps terms that no row tells apart (the reach of one core) at 0.
 RIDGE = 1e-8
+#: A gross error (a stuck pose) counts as so many times what the law says of its place.
+CAP = 5.0
+MAX_CAPPINGS = 10
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,18 +98,29 @@ def law(errors: Array, log_reaches: Array, log_distances: Array, weights: Array)
     """Slope of the logarithm of the mean error in reach; slope and bend in distance, rising as far as there are rows:
     without a bend where it would fall there, without a slope where that would. `errors` (n_rows,) are above 0.
 
-    By maximum likelihood of exponential errors (a gamma regression with a logarithmic link). Least squares of their
-    logarithms would heed most the smallest errors, which tell nothing: those that cross zero.
+    By maximum likelihood of exponential errors (a gamma regression with a logarithmic link), gross ones capped. Least
+    squares of their logarithms would heed most the smallest errors, which tell nothing: those that cross zero.
     """
-    from sklearn.linear_model import GammaRegressor
-
     terms = np.column_stack([log_reaches, log_distances, log_distances**2])
     found = np.zeros(3)
     for n_terms in (3, 2, 1):
-        glm = GammaRegressor(alpha=RIDGE, solver="newton-cholesky", max_iter=300)
-        glm.fit(terms[:, :n_terms], errors / errors.mean(), sample_weight=weights)
         found[:] = 0.0
-        found[:n_terms] = glm.coef_
+        found[:n_terms] = slopes(terms[:, :n_terms], errors, weights)
         if found[1] >= 0 and found[1] + 2 * found[2] * log_distances.max() >= 0:
             break
     return float(found[0]), float(found[1]), float(found[2])
+
+
+def slopes(terms: Array, errors: Array, weights: Array) -> Array:
+    """Coefficients (n_terms,) of the logarithm of the mean error (n_rows,), with errors capped anew after each fit."""
+    from sklearn.linear_model import GammaRegressor
+
+    capped = np.minimum(errors, CAP * np.quantile(errors, 0.9))
+    for _ in range(MAX_CAPPINGS):
+        scale = capped.mean()
+        glm = GammaRegressor(alpha=RIDGE, solver="newton-cholesky", max_iter=300)
+        glm.fit(terms, capped / scale, sample_weight=weights)
+        before, capped = capped, np.minimum(errors, CAP * scale * glm.predict(terms))
+        if np.allclose(capped, before, rtol=1e-3, atol=0.0):
+            break
+    return np.asarray(glm.coef_)

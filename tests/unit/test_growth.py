@@ -123,3 +123,20 @@ def test_a_shell_of_too_few_rows_has_no_say_and_without_any_the_interval_is_infi
     none = half_widths(ShellEvidence(evidence.deployed, few, evidence.norm), [0.8, 0.95])
     assert np.isfinite(none[0]).all()
     assert np.isinf(none[1]).all()
+
+
+def test_gross_errors_do_not_bend_the_law() -> None:
+    """1 % of rows stuck in another pose, 1000 times off, anywhere in the shells."""
+    rng = np.random.default_rng(5)
+    log_reaches, log_distances = np.log(rng.choice([0.6, 0.7, 0.8, 0.9], 1000)), rng.uniform(0, 0.4, 1000)
+    errors = np.abs(rng.standard_normal(1000)) * np.exp(2 * log_reaches + 6 * log_distances)
+    clean = law(errors, log_reaches, log_distances, np.ones(1000))
+    errors[rng.choice(1000, 10, replace=False)] *= 1000
+    gross = law(errors, log_reaches, log_distances, np.ones(1000))
+
+    def grown(found: tuple[float, float, float]) -> float:
+        return found[1] * 0.4 + found[2] * 0.4**2
+
+    assert grown(clean) == pytest.approx(6 * 0.4, abs=0.3)
+    assert grown(gross) == pytest.approx(grown(clean), abs=0.3)
+    assert gross[0] == pytest.approx(clean[0], abs=0.7)
