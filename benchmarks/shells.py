@@ -6,8 +6,8 @@ Simulates each stand-in with so many rows, seed by seed, fits every model in eit
 parameters that its studies try, and puts `auto` around it: coverage of extrapolation at 90 % and the Winkler score over
 the oracle's. Beside it the same, stretched by the method normalised by distance where that is wider. Prints a line per
 robot, space and model (means over seeds), and in how many cases 90 % are covered at no more than 1.5 times the
-oracle's score. `--rows 40 --copies 10 --seeds 4` makes robots of as few distinct commands as ELASTICA has; `--stuck 0.01`
-such as stay in the pose before in 1 % of all rows, as ABAQUS does.
+oracle's score. `--rows 40 --copies 10 --seeds 4` makes robots of as few distinct commands as ELASTICA has,
+`--stuck 0.01` such as stay in the pose before in 1 % of all rows, as ABAQUS does.
 """
 
 from __future__ import annotations
