@@ -25,10 +25,12 @@ BLUE, ORANGE, GREEN, VERMILION, SKY, PURPLE, YELLOW, BLACK = PALETTE = (
 GREY, LIGHT = "#666666", "#bbbbbb"
 SUBSET_COLOURS = {TRAIN: GREY, VALIDATION: GREEN, TEST: BLUE, EXTRAPOLATION: VERMILION}
 
-#: Tol's muted scheme (personal.sron.nl/~pault), black being the truth; with a mark of its own each model is told apart
-#: in grey, too. Nine colours and ten marks: no two of ninety models look alike.
-MODEL_COLOURS = (*("#CC6677", "#332288", "#DDCC77", "#117733", "#88CCEE", "#882255", "#44AA99", "#999933", "#AA4499"),)
-MODEL_MARKS = "os^DvPX*<>"
+#: Tol's muted scheme and a brown of his (personal.sron.nl/~pault), black being the truth; with a mark of
+#: its own each model is told apart in grey, too. Ten colours and eleven marks: no two of 110 models look alike.
+MODEL_COLOURS = (
+    *("#CC6677", "#332288", "#DDCC77", "#117733", "#88CCEE", "#882255", "#44AA99", "#999933", "#AA4499", "#661100"),
+)
+MODEL_MARKS = "os^DvPX*<>h"
 #: (colour, mark) by the place in the registries, whatever is configured: the same in every figure of every run.
 LOOKS = {
     name: (MODEL_COLOURS[place % len(MODEL_COLOURS)], MODEL_MARKS[place % len(MODEL_MARKS)])
