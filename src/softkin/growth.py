@@ -115,12 +115,12 @@ def slopes(terms: Array, errors: Array, weights: Array) -> Array:
     """Coefficients (n_terms,) of the logarithm of the mean error (n_rows,), with errors capped anew after each fit."""
     from sklearn.linear_model import GammaRegressor
 
-    capped = np.minimum(errors, CAP * np.quantile(errors, 0.9))
+    scale = np.quantile(errors, 0.9)
+    capped = np.minimum(errors / scale, CAP)
+    glm = GammaRegressor(alpha=RIDGE, solver="newton-cholesky", max_iter=300, warm_start=True)
     for _ in range(MAX_CAPPINGS):
-        scale = capped.mean()
-        glm = GammaRegressor(alpha=RIDGE, solver="newton-cholesky", max_iter=300)
-        glm.fit(terms, capped / scale, sample_weight=weights)
-        before, capped = capped, np.minimum(errors, CAP * scale * glm.predict(terms))
+        glm.fit(terms, capped, sample_weight=weights)
+        before, capped = capped, np.minimum(errors / scale, CAP * glm.predict(terms))
         if np.allclose(capped, before, rtol=1e-3, atol=0.0):
             break
     return np.asarray(glm.coef_)

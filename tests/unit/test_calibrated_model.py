@@ -86,7 +86,7 @@ def test_one_interval_for_everywhere(files: Path) -> None:
     covers = [
         ((b[1, ..., 0] <= far.positions) & (far.positions <= b[1, ..., 1]))[out, 3:].mean() for b in (narrow, wide)
     ]
-    assert covers[1] > covers[0]
+    assert covers[1] > covers[0] + 0.02
     np.testing.assert_array_equal(plain.is_outside(bending_arm(50, seed=3).commands * 0.3), False)
 
 

@@ -25,11 +25,14 @@ def intervals(evidence: ShellEvidence, confidence_levels: Sequence[float]) -> Ar
     limits = conformal_limits(np.abs(deployed.truth - deployed.calibration), confidence_levels)[:, None]
     if bounds is None:
         bounds = around(deployed.new, np.broadcast_to(limits, (len(limits), *deployed.new.shape)))
+    apart = outside(evidence)
+    if not apart.any():
+        return bounds
     beyond = around(deployed.new, np.maximum(limits, half_widths(evidence, confidence_levels)))
     if evidence.inside_is_informed:
         lower, upper = np.minimum(bounds[..., 0], beyond[..., 0]), np.maximum(bounds[..., 1], beyond[..., 1])
         beyond = np.stack([lower, upper], axis=-1)
-    return np.where(outside(evidence)[:, None, None], beyond, bounds)
+    return np.where(apart[:, None, None], beyond, bounds)
 
 
 def is_informed(method: IntervalMethod) -> bool:
