@@ -16,6 +16,8 @@ TRIALS = re.compile(r"\b(?:trial|resuming after) (\d+) of (\d+)\b")
 TAIL_BYTES = 8000
 #: So many jobs, and seconds of earlier work, before this run's pace is compared with the earlier run's.
 PACE_JOBS, PACE_SECONDS = 3, 10.0
+#: When so large a share of the jobs has ended, the few that were never timed do not make an estimate rough.
+LATE = 0.9
 
 
 @dataclass(slots=True)
@@ -130,7 +132,7 @@ class Progress:
         """What the jobs that have not ended will take, shared among the cores.
 
         A study that has ended k of n trials takes n/k of its time so far; any other job what it took in the run
-        before, at the pace of this one; a job without that the median of its rule.
+        before, at the pace of this one; a job without that the median of its rule, and late in a run that of all jobs.
         """
         pace = self.pace()
         whole = {id(job): self._whole(job, now, pace) for job in self.jobs.values()}
@@ -151,7 +153,10 @@ class Progress:
                 uncounted += 1
             else:
                 left.append(max(0.0, seconds - (now - job.started if job.started is not None else 0.0)))
-        if uncounted > len(left):
+        taken = [job.taken for job in self.jobs.values() if job.taken is not None]
+        if len(taken) >= LATE * len(self.jobs):
+            left, is_rough = [*left, *[median(taken)] * uncounted], False
+        elif uncounted > len(left):
             return Remaining(None)
         return Remaining(max(sum(left) / self.cores, max(left, default=0.0)), is_rough)
 

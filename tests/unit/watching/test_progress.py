@@ -68,6 +68,14 @@ def test_a_log_without_trials_tells_none(tmp_path: Path, text: str) -> None:
     assert trials(tmp_path / "missing.log") is None
 
 
+def test_late_in_a_run_the_last_jobs_are_estimated_though_never_timed() -> None:
+    run = progress(*(Job("predict", {}) for _ in range(18)), Job("report", {}), Job("track", {}))
+    for number in range(18):
+        run.begin(number, 0.0)
+        run.end(number, 3.0)
+    assert run.remaining(54.0) == Remaining(6.0)
+
+
 def test_a_busier_machine_stretches_what_is_left() -> None:
     run = progress(*(Job("fit", {}, earlier=10.0) for _ in range(5)))
     for number in range(3):
