@@ -13,7 +13,7 @@ TINY_MM = 1e-12
 #: What keeps terms that no row tells apart (the reach of one core) at 0.
 RIDGE = 1e-8
 #: A gross error (a stuck pose) counts as so many times what the law says of its place.
-CAP = 5.0
+CAP = 3.0
 MAX_CAPPINGS = 10
 
 

@@ -73,7 +73,7 @@ def test_it_covers_new_rows(files: Path, method: str) -> None:
 
 
 def test_one_interval_for_everywhere(files: Path) -> None:
-    """Inside it is the chosen method's, outside never narrower, and holds more there."""
+    """Inside it is the chosen method's, outside never narrower, and wide enough where that of inside is not."""
     plain, robot = bundled(files, "scp_spread"), bundled(files, "scp_spread", outside="auto")
     far = bending_arm(400, n_markers=2, seed=9, reach=1.6)
     out = robot.is_outside(far.commands)
@@ -86,7 +86,7 @@ def test_one_interval_for_everywhere(files: Path) -> None:
     covers = [
         ((b[1, ..., 0] <= far.positions) & (far.positions <= b[1, ..., 1]))[out, 3:].mean() for b in (narrow, wide)
     ]
-    assert covers[1] > covers[0] + 0.02
+    assert covers[1] > max(0.86, covers[0] + 0.03)
     np.testing.assert_array_equal(plain.is_outside(bending_arm(50, seed=3).commands * 0.3), False)
 
 
