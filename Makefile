@@ -18,7 +18,7 @@ unlock: .venv/installed
 
 # A robot of your own: make new-robot FILE=arm.csv shows a guess of its entry, with WRITE=1 config/datasets.yaml gets it.
 new-robot: .venv/installed
-	@$(BIN)/python -m softkin.new_robot "$(FILE)" $(if $(NAME),--name "$(NAME)") $(if $(WRITE),--write)
+	@$(BIN)/python -m softkin.cli.new_robot "$(FILE)" $(if $(NAME),--name "$(NAME)") $(if $(WRITE),--write)
 
 # The workflow tests, which wait for one run of the workflow, beside all others.
 test: .venv/installed
@@ -56,7 +56,7 @@ report: .venv/installed
 
 # The pictures and the table of the README, from a finished run of the default configuration.
 gallery: .venv/installed
-	$(BIN)/python -m softkin.gallery
+	$(BIN)/python -m tools.gallery
 
 # Snakemake's own report of a finished run: the same results with captions, and how each came about.
 snakemake-report: .venv/installed
@@ -94,11 +94,11 @@ standins: .venv/installed
 
 # What the README's numbers are read from, of a finished run of the default configuration.
 numbers: .venv/installed
-	$(BIN)/python benchmarks/readme_numbers.py
+	$(BIN)/python -m tools.readme_numbers
 
 # The picture of the MLflow UI in the README, docs/mlflow_ui.png, from the store of a finished run.
 ui-screenshot: .venv/installed
-	$(BIN)/python benchmarks/ui_screenshot.py
+	$(BIN)/python -m tools.ui_screenshot
 
 # Pin every dependency anew.
 environment: .venv/installed

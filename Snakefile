@@ -1,7 +1,7 @@
 # softkin: from published data to a calibrated forward kinematics. `snakemake --cores 2` is all it takes.
 #
 #     retrieve -> prepare -> tune -> fit -> predict -> score -> tables -> report
-#                    |         |       \-> refit -\-> intervals -> score, figures -> track (MLflow)
+#                    |         |       \-> refit -\-> calibrate -> score, figures -> track (MLflow)
 #                    \-> audit \-> tune and fit quantiles -/
 from pathlib import Path
 
@@ -17,7 +17,8 @@ configfile: Path(workflow.basedir) / "config" / "config.yaml"
 configfile: Path(workflow.basedir) / "config" / "datasets.yaml"
 
 
-include: "workflow/rules/common.smk"
+include: "workflow/rules/configuration.smk"
+include: "workflow/rules/paths.smk"
 include: "workflow/rules/deciding_code.smk"
 include: "workflow/rules/retrieve.smk"
 include: "workflow/rules/prepare.smk"
@@ -25,9 +26,9 @@ include: "workflow/rules/audit.smk"
 include: "workflow/rules/tune.smk"
 include: "workflow/rules/fit.smk"
 include: "workflow/rules/predict.smk"
+include: "workflow/rules/refit.smk"
+include: "workflow/rules/calibrate.smk"
 include: "workflow/rules/score.smk"
-include: "workflow/rules/quantiles.smk"
-include: "workflow/rules/intervals.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/tables.smk"
 include: "workflow/rules/timed_jobs.smk"

@@ -18,10 +18,10 @@ from pathlib import Path
 
 import numpy as np
 
-from softkin.auditing.data_card import audit
-from softkin.datasets.table import to_table, write_table
-from softkin.files import read_json
-from softkin.interface import SUBSETS, Samples
+from softkin.core.files import read_json
+from softkin.core.samples import SUBSETS, Samples
+from softkin.data.audit.data_card import audit
+from softkin.data.table import to_table, write_table
 
 SHARES = (0.56, 0.07, 0.07, 0.30)
 

@@ -23,38 +23,31 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from softkin.choosing_intervals import resplit
-from softkin.conformal import conformal_rank
-from softkin.datasets.table import read_subset
-from softkin.evidence import Evidences
-from softkin.interface import (
-    MARGINAL,
-    PAPERS_RUN,
-    SUBSETS,
-    TEST,
-    TRAIN,
-    VALIDATION,
-    Array,
-    Evidence,
-    informative_coordinates,
-)
-from softkin.intervals import INTERVAL_METHODS
-from softkin.metrics.interval import covered
-from softkin.regions import REGION_METHODS
-from softkin.scoring_regions import moving_residuals
+from softkin.core.metrics.interval import covered
+from softkin.core.samples import SUBSETS, TEST, TRAIN, VALIDATION, Array, informative_coordinates
+from softkin.data.table import read_subset
+from softkin.evaluation.score_regions import moving_residuals
+from softkin.models.spec import PAPERS_RUN
+from softkin.uncertainty.calibration_data import Evidence
+from softkin.uncertainty.choose import resplit
+from softkin.uncertainty.conformal import conformal_rank
+from softkin.uncertainty.intervals import INTERVAL_METHODS
+from softkin.uncertainty.intervals.spec import MARGINAL
+from softkin.uncertainty.regions import REGION_METHODS
+from softkin.uncertainty.stored_outputs import StoredOutputs
 
 LEVELS = [0.8, 0.9, 0.95]
 PRESETS = ("paper", "tuned")
 Ranks = Callable[[int, float], int | None]
 
 
-def evidences_of(folder: Path) -> Evidences:
+def evidences_of(folder: Path) -> StoredOutputs:
     """All stored outputs of a dataset."""
     quantiles = {
         (path.parts[-3], path.parts[-2]): path for path in sorted(folder.glob("quantiles/*/*/quantiles.parquet"))
     }
     predictions = {(path.parts[-3], path.parts[-2]): path for path in sorted(folder.glob("*/*/predictions.parquet"))}
-    return Evidences(
+    return StoredOutputs(
         folder / "table.parquet", predictions=predictions, quantiles=quantiles, refits=None, confidence_levels=LEVELS
     )
 
@@ -76,7 +69,7 @@ def pooled(evidence: Evidence, truth: Array, n_test: int, moving: NDArray[np.boo
 
 def coverages(folder: Path, splits: int, seed: int) -> Iterator[tuple[str, str, Ranks, int, Array]]:
     """Method, run, its rank, number of calibration rows, coverage (n_splits, n_levels, n_coordinates)."""
-    evidences = evidences_of(folder)
+    outputs = evidences_of(folder)
     truth = {subset: read_subset(folder / "table.parquet", subset).positions for subset in SUBSETS}
     moving = informative_coordinates(truth[TRAIN])
     both = np.concatenate([truth[VALIDATION], truth[TEST]])
@@ -87,7 +80,7 @@ def coverages(folder: Path, splits: int, seed: int) -> Iterator[tuple[str, str, 
     for name, method in INTERVAL_METHODS.items():
         if method.guarantee != MARGINAL or method.rank is None:
             continue
-        for run, evidence in evidences.of(method.on):
+        for run, evidence in outputs.of(method.on):
             if run not in runs:
                 continue
             assert isinstance(evidence, Evidence)
@@ -100,7 +93,7 @@ def coverages(folder: Path, splits: int, seed: int) -> Iterator[tuple[str, str, 
                 shares.append([covered(both[order[n:]][:, moving], level).mean(axis=0) for level in bounds])
             yield name, " ".join(run), method.rank, n, np.array(shares)
     markers = np.flatnonzero(moving) // 3
-    for run, residuals in moving_residuals(evidences, truth):
+    for run, residuals in moving_residuals(outputs, truth):
         rows = np.concatenate([residuals[VALIDATION], residuals[TEST]])
         for name, region in REGION_METHODS.items():
             if run in runs and region.is_exact:

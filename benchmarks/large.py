@@ -20,7 +20,7 @@ from pathlib import Path
 import yaml
 from audit import made_up
 
-from softkin.datasets.table import to_table
+from softkin.data.table import to_table
 
 HOUSE = Path(__file__).resolve().parent.parent
 GIGABYTES = 2.0

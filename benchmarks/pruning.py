@@ -16,11 +16,12 @@ from unittest.mock import patch
 
 import yaml
 
-from softkin.datasets.table import read_subset
-from softkin.interface import TRAIN, TUNED
+from softkin.core.runs import TUNED
+from softkin.core.samples import TRAIN
+from softkin.data.table import read_subset
 from softkin.models import MODELS
-from softkin.tuning import KEPT_PERCENT, TuningSettings
-from softkin.tuning_models import Robot, SearchSettings, tune_model
+from softkin.training.study import KEPT_PERCENT, TuningSettings
+from softkin.training.tune import Robot, SearchSettings, tune_model
 
 HOUSE = Path(__file__).parent.parent
 
@@ -39,7 +40,7 @@ def main() -> None:
     print(f"{'model':<7}{'kept %':>7}{'pruned':>8}{'CPU s':>8}{'best mm':>11}")
     for model in given.models:
         for kept in given.kept:
-            with tempfile.TemporaryDirectory() as folder, patch("softkin.tuning.KEPT_PERCENT", kept):
+            with tempfile.TemporaryDirectory() as folder, patch("softkin.training.study.KEPT_PERCENT", kept):
                 result, _ = tune_model(
                     train,
                     spec=MODELS[model],

@@ -20,26 +20,17 @@ import warnings
 import numpy as np
 from optuna.trial import FixedTrial
 
-from softkin.fitting import fit_quietly, kinematic_model
-from softkin.interface import (
-    EXTRAPOLATION,
-    TEST,
-    TRAIN,
-    VALIDATION,
-    Evidence,
-    Samples,
-    Shell,
-    ShellEvidence,
-    informative_coordinates,
-)
-from softkin.intervals import INTERVAL_METHODS
-from softkin.metrics.interval import covered, winkler_scores
+from softkin.core.metrics.interval import covered, winkler_scores
+from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, VALIDATION, Samples, informative_coordinates
+from softkin.core.shells import command_norm
+from softkin.data.standins import STANDINS
+from softkin.data.standins.simulating import simulate
 from softkin.models import MODELS
-from softkin.refitting_shells import cores_and_shells
-from softkin.shells import command_norm
-from softkin.standins import STANDINS
-from softkin.standins.simulating import simulate
-from softkin.target_spaces import TARGET_SPACES
+from softkin.models.target_spaces import TARGET_SPACES
+from softkin.training.fit import fit_quietly, kinematic_model
+from softkin.training.refit_shells import cores_and_shells
+from softkin.uncertainty.calibration_data import Evidence, Shell, ShellEvidence
+from softkin.uncertainty.intervals import INTERVAL_METHODS
 
 LEVEL, LARGEST_RATIO = 0.9, 1.5
 CORE_SHARES = (0.6, 0.7, 0.8, 0.9)

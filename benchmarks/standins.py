@@ -16,9 +16,9 @@ from pathlib import Path
 import numpy as np
 import yaml
 
-from softkin.interface import EXTRAPOLATION, TRAIN
-from softkin.job import stopwatch
-from softkin.standins.simulating import simulate
+from softkin.core.job import stopwatch
+from softkin.core.samples import EXTRAPOLATION, TRAIN
+from softkin.data.standins.simulating import simulate
 
 HOUSE = Path(__file__).parent.parent
 

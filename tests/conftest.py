@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 import yaml
 
-from softkin.datasets.table import to_table, write_table
-from softkin.interface import SUBSETS, Samples
+from softkin.core.samples import SUBSETS, Samples
+from softkin.data.table import to_table, write_table
 
 HOUSE = Path(__file__).parent.parent
 KEYS = {"train": "train", "validation": "val", "test": "test", "extrapolation": "ext"}

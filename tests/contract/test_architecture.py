@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from softkin.interface import PRESETS
+from softkin.core.runs import PRESETS
 from softkin.models import MODELS
 from tests.conftest import HOUSE
 
@@ -105,7 +105,7 @@ def imports(path: Path) -> set[str]:
 
 
 def part(module: str) -> str:
-    """'datasets' of 'softkin.datasets.table'."""
+    """'datasets' of 'softkin.data.table'."""
     return module.split(".")[1] if "." in module else "__init__"
 
 
@@ -147,7 +147,7 @@ def test_registries_import_no_learning_library() -> None:
     """Snakemake imports them each time it starts: all that the rules import, read off the rules."""
     rules = "".join(path.read_text() for path in (HOUSE / "workflow" / "rules").glob("*.smk"))
     modules = sorted(set(re.findall(r"^(?:from|import) (softkin[\w.]*)", rules, re.MULTILINE)))
-    assert {"softkin.models", "softkin.regions", "softkin.standins"} <= set(modules)
+    assert {"softkin.models", "softkin.uncertainty.regions", "softkin.data.standins"} <= set(modules)
     code = f"import sys, {', '.join(modules)}; "
     code += "print(*sorted({m.split('.')[0] for m in sys.modules}))"
     loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()

@@ -10,9 +10,9 @@ import numpy as np
 import optuna
 import pytest
 
-from softkin.fitting import fit_quietly, kinematic_model, spread_of
-from softkin.interface import Params, Samples
+from softkin.core.samples import Params, Samples
 from softkin.models import MODELS, source_files
+from softkin.training.fit import fit_quietly, kinematic_model, spread_of
 from tests.conftest import bending_arm
 
 optuna.logging.set_verbosity(optuna.logging.WARNING)

@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 import yaml
 
-from softkin.files import read_json
+from softkin.core.files import read_json
 from tests.conftest import HOUSE
 from tests.workflow.conftest import House, copy_house
 

@@ -12,11 +12,12 @@ import pytest
 import yaml
 from mlflow import MlflowClient
 
-from softkin.files import read_json
-from softkin.interface import PRESETS, SEARCHED, SUBSETS
-from softkin.intervals import INTERVAL_METHODS
+from softkin.core.files import read_json
+from softkin.core.runs import PRESETS, SEARCHED
+from softkin.core.samples import SUBSETS
 from softkin.models import MODELS
-from softkin.outside import OUTSIDE_METHODS
+from softkin.uncertainty.intervals import INTERVAL_METHODS
+from softkin.uncertainty.labelled import LABELLED_METHODS
 from tests.conftest import HOUSE
 from tests.workflow.conftest import House
 
@@ -115,7 +116,7 @@ def test_every_interval_outside_train_stands_beside_the_oracle(house: House) -> 
         assert ("huber", "outer") in runs[dataset]
         assert len(runs[dataset]) <= 3
         assert (house.work / "results" / dataset / "figures" / "outside.png").is_file()
-    assert set(OUTSIDE_METHODS) | {"scp_mapie", "scp_distance", "auto"} <= set(table["interval_method"])
+    assert set(LABELLED_METHODS) | {"scp_mapie", "scp_distance", "auto"} <= set(table["interval_method"])
     scored = table[table["refused"].isna()]
     oracle = scored[scored["interval_method"] == "oracle"]
     assert (oracle["coverage"] >= oracle["confidence_level"]).all()

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 import yaml
 
-from softkin.files import read_json
-from softkin.interface import SUBSETS
+from softkin.core.files import read_json
+from softkin.core.samples import SUBSETS
 from tests.workflow.conftest import House
 
 pytestmark = pytest.mark.timeout(600)

@@ -22,7 +22,7 @@ import pandas as pd
 import pytest
 from mlflow import MlflowClient
 
-from softkin.files import sha256_of
+from softkin.core.files import sha256_of
 from softkin.tracking.store import KEY, PARENT
 from tests.conftest import HOUSE
 from tests.workflow.conftest import House

@@ -4,15 +4,7 @@ rule audit:
     input:
         table="results/{dataset}/table.parquet",
         description="results/{dataset}/dataset.json",
-        code=package(
-            "findings.py",
-            "rows.py",
-            "smooth_fit.py",
-            "target_spaces/base_frame.py",
-            "target_spaces/constant_curvature.py",
-            "datasets/table.py",
-        ),
-        checks=sorted((PACKAGE / "auditing").glob("*.py")),
+        code=code_of("audit"),
     output:
         data_card="results/{dataset}/data_card.json",
         readable="results/{dataset}/data_card.md",

@@ -1,6 +1,6 @@
 # in:  the predictions, trials, intervals and scores of a dataset
 # out: a folder of figures (PNG, SVG, and CSV of what they show) and an index of the runs that they show
-rule figures:
+rule draw_figures:
     input:
         table="results/{dataset}/table.parquet",
         description="results/{dataset}/dataset.json",
@@ -17,15 +17,7 @@ rule figures:
         conditional="results/{dataset}/conditional_coverage.csv",
         outside="results/{dataset}/extrapolation_intervals.csv",
         spaces="results/{dataset}/target_spaces.csv",
-        code=package(
-            "bounds.py",
-            "datasets/table.py",
-            "metrics/point.py",
-            "choosing_intervals.py",
-            "findings.py",
-            "outside/method.py",
-        ),
-        figure_code=FIGURE_CODE,
+        code=code_of("draw_figures"),
     output:
         report(
             directory("results/{dataset}/figures"),
@@ -36,9 +28,9 @@ rule figures:
             labels={"figure": "{figure}"},
         ),
     log:
-        "results/logs/figures/{dataset}.log",
+        "results/logs/draw_figures/{dataset}.log",
     benchmark:
-        "results/benchmarks/figures/{dataset}.tsv"
+        "results/benchmarks/draw_figures/{dataset}.tsv"
     priority: 30
     conda:
         SOFTWARE
@@ -49,26 +41,25 @@ rule figures:
         methods=config["interval_methods"],
         source=source,
     script:
-        "../scripts/figures.py"
+        "../scripts/draw_figures.py"
 
 
 # in:  the paper's printed cells beside ours
 # out: a folder of the figures across datasets
-rule campaign_figures:
+rule draw_campaign_figures:
     input:
         published_comparison="results/tables/published_comparison.csv",
-        code=package("tables/published.py"),
-        figure_code=FIGURE_CODE,
+        code=code_of("draw_campaign_figures"),
     output:
         directory("results/tables/figures"),
     log:
-        "results/logs/campaign_figures.log",
+        "results/logs/draw_campaign_figures.log",
     benchmark:
-        "results/benchmarks/campaign_figures.tsv"
+        "results/benchmarks/draw_campaign_figures.tsv"
     conda:
         SOFTWARE
     threads: 1
     params:
         titles={name: config["sources"][name]["title"] for name in config["datasets"]},
     script:
-        "../scripts/campaign_figures.py"
+        "../scripts/draw_campaign_figures.py"

@@ -3,13 +3,13 @@
 rule fit_paper:
     input:
         table="results/{dataset}/table.parquet",
-        code=package(*FITTING_CODE),
+        code=code_of("fit_paper"),
         model_code=model_code,
     output:
         model="results/{dataset}/{model}/paper/model.joblib",
         record="results/{dataset}/{model}/paper/fit.json",
     log:
-        "results/logs/fit/{dataset}/{model}/paper.log",
+        "results/logs/fit_paper/{dataset}/{model}.log",
     benchmark:
         "results/benchmarks/fit_paper/{dataset}/{model}.tsv"
     priority: 10
@@ -31,13 +31,13 @@ rule fit_tuned:
     input:
         table="results/{dataset}/table.parquet",
         parameters=of_searched("parameters.json"),
-        code=package(*FITTING_CODE),
+        code=code_of("fit_tuned"),
         model_code=model_code,
     output:
         models=of_searched("model.joblib"),
         records=of_searched("fit.json"),
     log:
-        "results/logs/fit/{dataset}/{model}/tuned.log",
+        "results/logs/fit_tuned/{dataset}/{model}.log",
     benchmark:
         "results/benchmarks/fit_tuned/{dataset}/{model}.tsv"
     priority: 10
@@ -52,28 +52,29 @@ rule fit_tuned:
         "../scripts/fit_tuned.py"
 
 
-# in:  the table of a dataset (rows of train are fitted on, commands of test and extrapolation predicted), and what the
-#      searches by outer shells found
-# out: what every model predicts that is fitted in the target space which its search has not chosen
-rule refit_spaces:
+# in:  the table of a dataset (rows of train are fitted on, commands of the others predicted); for the tuned preset, the
+#      best parameters
+# out: a fitted learner of quantiles, and its quantiles of validation, test and extrapolation
+rule fit_quantiles:
     input:
         table="results/{dataset}/table.parquet",
-        parameters=run_files("parameters.json", [OUTER], COMPARED),
-        code=package("refitting_spaces.py", "refitting.py", *FITTING_CODE),
+        parameters=quantile_parameters,
+        code=code_of("fit_quantiles"),
+        quantile_code=quantile_code,
     output:
-        "results/{dataset}/other_spaces.parquet",
+        model="results/{dataset}/quantiles/{quantile_model}/{preset}/model.joblib",
+        quantiles="results/{dataset}/quantiles/{quantile_model}/{preset}/quantiles.parquet",
+        record="results/{dataset}/quantiles/{quantile_model}/{preset}/fit.json",
     log:
-        "results/logs/refit_spaces/{dataset}.log",
+        "results/logs/fit_quantiles/{dataset}/{quantile_model}/{preset}.log",
     benchmark:
-        "results/benchmarks/refit_spaces/{dataset}.tsv"
+        "results/benchmarks/fit_quantiles/{dataset}/{quantile_model}/{preset}.tsv"
     priority: 10
     conda:
         SOFTWARE
     threads: 1
     params:
-        models=COMPARED,
-        robot=robot,
-        max_fit_rows=config["max_fit_rows"],
+        confidence_levels=config["confidence_levels"],
         seed=config["seed"],
     script:
-        "../scripts/refit_spaces.py"
+        "../scripts/fit_quantiles.py"

@@ -5,7 +5,7 @@ rule predict:
     input:
         table="results/{dataset}/table.parquet",
         models=of_presets("model.joblib"),
-        code=package(*FITTING_CODE),
+        code=code_of("predict"),
         model_code=model_code,
     output:
         predictions=of_presets("predictions.parquet"),

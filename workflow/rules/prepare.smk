@@ -3,7 +3,7 @@
 rule prepare:
     input:
         raw="results/{dataset}/raw",
-        code=package("datasets/preparing.py", "datasets/table.py"),
+        code=code_of("prepare"),
         cleaning=cleaning_code,
         reader_code=reader_code,
     output:

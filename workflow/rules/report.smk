@@ -1,6 +1,6 @@
 # in:  the tables; the description, data card and figures of each dataset; what each job took and recorded
 # out: one page that tells the whole run, with everything inside
-rule report:
+rule build_report:
     input:
         tables=expand("results/tables/{name}", name=TABLES),
         descriptions=of_every_dataset("results/{dataset}/dataset.json"),
@@ -11,13 +11,8 @@ rule report:
         records=[record for _, _, records in timed_jobs() for record in records],
         benchmarks=[benchmark for _, benchmark, _ in timed_jobs()],
         citation=Path(workflow.basedir) / "CITATION.cff",
-        code=package(
-            "durations.py",
-            "tables/published.py",
-            "tables/paper_layout.py",
-            "tables/interval_choice.py",
-        ),
-        page=report_code(),
+        code=code_of("build_report"),
+        templates=page_templates(),
     output:
         report(
             REPORT,
@@ -26,13 +21,13 @@ rule report:
             labels={"result": "report"},
         ),
     log:
-        "results/logs/report.log",
+        "results/logs/build_report.log",
     benchmark:
-        "results/benchmarks/report.tsv"
+        "results/benchmarks/build_report.tsv"
     conda:
         SOFTWARE
     params:
         jobs=timed_jobs(),
         config=config,
     script:
-        "../scripts/report.py"
+        "../scripts/build_report.py"

@@ -1,33 +1,22 @@
 # in:  the scores of all datasets, the tuned parameters, the paper's printed cells
 # out: results/tables: ours, ours beside the paper's, the chosen models, the headline
-rule tables:
+rule build_tables:
     input:
         point=of_every_dataset("results/{dataset}/point_metrics.csv"),
         markers=of_every_dataset("results/{dataset}/marker_errors.csv"),
         intervals=of_every_dataset("results/{dataset}/interval_metrics.csv"),
-        choices=of_every_dataset("results/{dataset}/interval_choice.csv"),
+        choice=of_every_dataset("results/{dataset}/interval_choice.csv"),
         conditional=of_every_dataset("results/{dataset}/conditional_coverage.csv"),
         alarms=of_every_dataset("results/{dataset}/alarm_rates.csv"),
-        outside=of_every_dataset("results/{dataset}/extrapolation_intervals.csv"),
+        extrapolation=of_every_dataset("results/{dataset}/extrapolation_intervals.csv"),
         spaces=of_every_dataset("results/{dataset}/target_spaces.csv"),
-        descriptions=of_every_dataset("results/{dataset}/dataset.json"),
-        data_cards=of_every_dataset("results/{dataset}/data_card.json"),
+        description=of_every_dataset("results/{dataset}/dataset.json"),
+        data_card=of_every_dataset("results/{dataset}/data_card.json"),
         parameters=of_every_dataset(run_files("parameters.json", SEARCHED)),
         published=PUBLISHED / "point_metrics.csv",
         subsets=PUBLISHED / "subsets.csv",
         published_intervals=PUBLISHED / "interval_metrics.csv",
-        code=package(
-            "tables/build.py",
-            "tables/published.py",
-            "tables/published_intervals.py",
-            "tables/interval_choice.py",
-            "tables/interval_layout.py",
-            "tables/leaks.py",
-            "findings.py",
-            "tables/selection.py",
-            "tables/paper_layout.py",
-            "tables/headline.py",
-        ),
+        code=code_of("build_tables"),
     output:
         headline=report(
             HEADLINE,
@@ -54,9 +43,9 @@ rule tables:
             for name in TABLES
         ],
     log:
-        "results/logs/tables.log",
+        "results/logs/build_tables.log",
     benchmark:
-        "results/benchmarks/tables.tsv"
+        "results/benchmarks/build_tables.tsv"
     conda:
         SOFTWARE
     params:
@@ -64,4 +53,4 @@ rule tables:
         objective=config["objective"],
         sources={name: config["sources"][name] for name in config["datasets"]},
     script:
-        "../scripts/tables.py"
+        "../scripts/build_tables.py"

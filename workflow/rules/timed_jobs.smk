@@ -1,7 +1,6 @@
 # Which jobs are timed, and where they leave their time and their records: what the report tells of them.
 def timed_jobs():
     """[rule, dataset, model, preset] (empty: all of them), benchmark and records of each job that is timed."""
-    quantile_runs = QUANTILE_RUNS if asks_for("quantiles") else []
     searched = [[model, ""] for model in config["models"] if SEARCHED_PRESETS]
     kinds = [
         ("tune", searched, "{model}", of_searched("parameters.json")),
@@ -14,22 +13,22 @@ def timed_jobs():
         ),
         (
             "tune_quantiles",
-            [run for run in quantile_runs if run[1] == TUNED],
+            [run for run in QUANTILE_RUNS if run[1] == TUNED],
             "{model}",
             ["results/{dataset}/quantiles/{model}/tuned/parameters.json"],
         ),
         (
-            "quantiles",
-            quantile_runs,
+            "fit_quantiles",
+            QUANTILE_RUNS,
             "{model}/{preset}",
             ["results/{dataset}/quantiles/{model}/{preset}/fit.json"],
         ),
-        ("refit", [["", ""]] * asks_for("folds", "resamples"), "", []),
-        ("refit_shells", [["", ""]] * asks_for("shells"), "", []),
+        ("refit", [["", ""]] * bool(REFITS), "", []),
+        ("refit_shells", [["", ""]] * bool(SHELLS), "", []),
         ("refit_spaces", [["", ""]] * bool(COMPARED), "", []),
-        ("intervals", [["", ""]], "", []),
+        ("calibrate_intervals", [["", ""]], "", []),
         ("score_intervals", [["", ""]], "", []),
-        ("score_outside", [["", ""]], "", []),
+        ("score_extrapolation", [["", ""]], "", []),
     ]
     return [
         (
@@ -50,11 +49,3 @@ def timed_jobs():
         for name, runs, place, records in kinds
         for model, preset in runs
     ]
-
-
-def report_code():
-    """The package of the report, its templates with it."""
-    endings = (".py", ".j2", ".css", ".js")
-    return sorted(
-        path for path in (PACKAGE / "report").rglob("*") if path.suffix in endings
-    )

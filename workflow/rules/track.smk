@@ -1,5 +1,5 @@
-# in:  the result files of a dataset
-# out: its runs in the MLflow store and its champion in the registry, and their ids
+# in:  nothing
+# out: the MLflow store, made once before any job logs to it
 rule create_store:
     output:
         "results/mlflow_store.json",
@@ -14,6 +14,8 @@ rule create_store:
         "../scripts/create_store.py"
 
 
+# in:  the result files of a dataset
+# out: its runs in the MLflow store and its champion in the registry, and their ids
 rule track:
     input:
         store="results/mlflow_store.json",
@@ -28,16 +30,7 @@ rule track:
         intervals="results/{dataset}/interval_metrics.csv",
         figures="results/{dataset}/figures",
         calibrated_model="results/{dataset}/calibrated_model.joblib",
-        code=package(
-            "tracking/store.py",
-            "tracking/figure_index.py",
-            "tracking/models.py",
-            "tracking/intervals.py",
-            "tracking/champion.py",
-            "tracking/model_card.py",
-            "tracking/served_model.py",
-            "tracking/saved_view.py",
-        ),
+        code=code_of("track"),
     output:
         "results/{dataset}/mlflow_runs.json",
     log:

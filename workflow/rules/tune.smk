@@ -5,13 +5,7 @@
 rule tune:
     input:
         table="results/{dataset}/table.parquet",
-        code=package(
-            "tuning.py",
-            "tuning_models.py",
-            "folds.py",
-            "shells.py",
-            *FITTING_CODE,
-        ),
+        code=code_of("tune"),
         model_code=model_code,
     output:
         parameters=of_searched("parameters.json"),
@@ -36,3 +30,31 @@ rule tune:
         seed=config["seed"],
     script:
         "../scripts/tune.py"
+
+
+# in:  the table of a dataset (rows of train only are read)
+# out: the best parameters of a learner of quantiles on it, and the table of all trials; the study lives in
+#      results/studies, as those of the models do
+rule tune_quantiles:
+    input:
+        table="results/{dataset}/table.parquet",
+        code=code_of("tune_quantiles"),
+        quantile_code=quantile_code,
+    output:
+        parameters="results/{dataset}/quantiles/{quantile_model}/tuned/parameters.json",
+        trials="results/{dataset}/quantiles/{quantile_model}/tuned/trials.csv",
+    log:
+        "results/logs/tune_quantiles/{dataset}/{quantile_model}.log",
+    benchmark:
+        "results/benchmarks/tune_quantiles/{dataset}/{quantile_model}.tsv"
+    conda:
+        SOFTWARE
+    threads: 1
+    params:
+        study="results/studies/{dataset}/quantiles_{quantile_model}.db",
+        n_trials=config["tuning"]["n_quantile_trials"],
+        n_folds=config["tuning"]["n_folds"],
+        max_rows=config["tuning"]["max_rows"],
+        seed=config["seed"],
+    script:
+        "../scripts/tune_quantiles.py"

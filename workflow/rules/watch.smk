@@ -1,8 +1,8 @@
-# What a person sees while it runs: see src/softkin/watching. No rule of its own.
+# What a person sees while it runs: see src/softkin/cli/watching. No rule of its own.
 import time
 
-from softkin.watching.progress import Job, Progress, in_order, measured_seconds
-from softkin.watching.view import SNAKEMAKES_OWN, View
+from softkin.cli.watching.progress import Job, Progress, in_order, measured_seconds
+from softkin.cli.watching.view import SNAKEMAKES_OWN, View
 
 
 def jobs_to_do():

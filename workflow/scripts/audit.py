@@ -1,8 +1,8 @@
 """Rule audit: tidy table -> data card."""
 
-from softkin.auditing.data_card import audit
-from softkin.files import read_json
-from softkin.job import job
+from softkin.core.files import read_json
+from softkin.core.job import job
+from softkin.data.audit.data_card import audit
 
 dataset = snakemake.wildcards.dataset
 with job(snakemake.log[0], f"audit {dataset}"):

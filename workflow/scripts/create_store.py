@@ -1,7 +1,7 @@
 """Rule create_store: make the MLflow store, once, before any job logs to it."""
 
-from softkin.files import write_json
-from softkin.job import job
+from softkin.core.files import write_json
+from softkin.core.job import job
 from softkin.tracking import create_store
 
 with job(snakemake.log[0], "create store"):

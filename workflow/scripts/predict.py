@@ -1,8 +1,8 @@
 """Rule predict: predictions of every subset."""
 
-from softkin.fitting import predict
-from softkin.job import job
+from softkin.core.job import job
 from softkin.models import MODELS
+from softkin.training.predict import predict
 
 files = zip(snakemake.input.models, snakemake.output.predictions, snakemake.output.records, strict=True)
 with job(snakemake.log[0], "predict {dataset} {model}".format(**snakemake.wildcards)):

@@ -1,8 +1,8 @@
 """Rule prepare: the file of a dataset -> tidy table in mm."""
 
-from softkin.auditing.cleaning import cleaned
-from softkin.datasets.preparing import prepare
-from softkin.job import job
+from softkin.core.job import job
+from softkin.data.audit.cleaning import cleaned
+from softkin.data.prepare import prepare
 
 dataset = snakemake.wildcards.dataset
 with job(snakemake.log[0], f"prepare {dataset}"):

@@ -1,23 +1,27 @@
 """Rule refit_shells: refit a few models of a dataset on inner cores of train."""
 
-from softkin.choosing_intervals import shell_runs
-from softkin.job import job
+from softkin.core.job import job
+from softkin.core.runs import Run
 from softkin.models import MODELS
-from softkin.refitting_shells import ShellSettings, refit_shells
+from softkin.training.refit_shells import ShellSettings, refit_shells
+from softkin.training.selection import shell_runs
 
-given, params, dataset = snakemake.input, snakemake.params, snakemake.wildcards.dataset
-runs = [tuple(run) for run in params.runs]
-searched = [tuple(run) for run in params.searched]
+files, params, dataset = snakemake.input, snakemake.params, snakemake.wildcards.dataset
+runs = [Run(*run) for run in params.runs]
+parameters = dict(zip([Run(*run) for run in params.searched], files.parameters, strict=True))
 with job(snakemake.log[0], f"refit shells {dataset}"):
-    chosen = shell_runs(runs, dict(zip(searched, given.parameters, strict=True)), params.objective)
+    chosen = shell_runs(runs, parameters, params.objective, params.robust_models)
     refit_shells(
-        given.table,
+        files.table,
         dataset=dataset,
-        standardised="split" in params.source,
-        specs={run: MODELS[run[0]] for run in chosen},
-        records=dict(zip(runs, given.records, strict=True)),
+        specs={run: MODELS[run.model] for run in chosen},
+        records=dict(zip(runs, files.records, strict=True)),
         max_fit_rows=params.max_fit_rows,
-        settings=ShellSettings(**params.shells, seed=params.seed),
-        threads=snakemake.threads,
+        settings=ShellSettings(
+            **params.shells,
+            standardised_norm=params.robot["standardised_norm"],
+            seed=params.seed,
+            threads=snakemake.threads,
+        ),
         shells=snakemake.output[0],
     )

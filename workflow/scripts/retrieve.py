@@ -2,10 +2,10 @@
 
 import os
 
-from softkin.datasets.retrieving import retrieve, take_own_file
-from softkin.datasets.simulated import RECIPE
-from softkin.files import write_json
-from softkin.job import job
+from softkin.core.files import write_json
+from softkin.core.job import job
+from softkin.data.readers.simulated import RECIPE
+from softkin.data.retrieve import retrieve, take_own_file
 
 dataset = snakemake.wildcards.dataset
 source = snakemake.params.source

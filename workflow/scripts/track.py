@@ -1,18 +1,19 @@
 """Rule track: result files of one dataset -> MLflow."""
 
-from softkin.files import write_json
-from softkin.job import job
+from softkin.core.files import write_json
+from softkin.core.job import job
+from softkin.core.runs import Run
 from softkin.tracking import Campaign, log_champion, log_dataset, log_intervals
 
-given = snakemake.input
+files = snakemake.input
 runs = {
-    tuple(run): {"model": model, "predictions": predictions, "fit": fit}
+    Run(*run): {"model": model, "predictions": predictions, "fit": fit}
     for run, model, predictions, fit in zip(
-        snakemake.params.runs, given.models, given.predictions, given.fit, strict=True
+        snakemake.params.runs, files.models, files.predictions, files.fit, strict=True
     )
 }
-for run, parameters, trials in zip(snakemake.params.tuned, given.parameters, given.trials, strict=True):
-    runs[tuple(run)] |= {"parameters": parameters, "trials": trials}
+for run, parameters, trials in zip(snakemake.params.tuned, files.parameters, files.trials, strict=True):
+    runs[Run(*run)] |= {"parameters": parameters, "trials": trials}
 
 with job(snakemake.log[0], f"track {snakemake.wildcards.dataset}"):
     campaign = Campaign(
@@ -21,15 +22,15 @@ with job(snakemake.log[0], f"track {snakemake.wildcards.dataset}"):
         tracking_uri=snakemake.params.tracking_uri,
         artifacts="mlartifacts",
     )
-    about = {"description": given.description, "data_card": given.data_card}
-    logged = log_dataset(campaign, **about, point=given.point, figures=given.figures, runs=runs)
-    n_intervals = log_intervals(campaign, **about, metrics=given.intervals, figures=given.figures, parents=logged)
+    about = {"description": files.description, "data_card": files.data_card}
+    logged = log_dataset(campaign, **about, point=files.point, figures=files.figures, runs=runs)
+    n_intervals = log_intervals(campaign, **about, metrics=files.intervals, figures=files.figures, parents=logged)
     version = log_champion(
         campaign,
         **about,
-        point=given.point,
-        intervals=given.intervals,
-        calibrated_model=given.calibrated_model,
+        point=files.point,
+        intervals=files.intervals,
+        calibrated_model=files.calibrated_model,
         parent=logged["campaign"],
     )
     write_json(snakemake.output[0], {"runs": logged, "interval_runs": n_intervals, "champion": version})

@@ -1,19 +1,17 @@
-"""Rule tune_quantiles: bring the study of a learner of quantiles to its number of trials."""
+"""Rule tune_quantiles: bring the study of a quantile regressor to its number of trials."""
 
-from softkin.job import job
-from softkin.quantile_models import QUANTILE_MODELS
-from softkin.tuning import TuningSettings
-from softkin.tuning_quantiles import tune_quantiles
+from softkin.core.job import job
+from softkin.models.quantile import QUANTILE_MODELS
+from softkin.training.study import StudyFile, TuningSettings
+from softkin.training.tune_quantiles import tune_quantiles
 
-dataset, model = snakemake.wildcards.dataset, snakemake.wildcards.quantile_model
-given = snakemake.params
+dataset, model, params = snakemake.wildcards.dataset, snakemake.wildcards.quantile_model, snakemake.params
 with job(snakemake.log[0], f"tune quantiles {dataset} {model}"):
     tune_quantiles(
         snakemake.input.table,
         spec=QUANTILE_MODELS[model],
-        settings=TuningSettings(given.n_trials, given.n_folds, given.max_rows, given.seed),
-        study_file=given.study,
-        code=[*snakemake.input.code, *snakemake.input.quantile_code],
+        settings=TuningSettings(params.n_trials, params.n_folds, params.max_rows, params.seed),
+        file=StudyFile(params.study, [*snakemake.input.code, *snakemake.input.quantile_code]),
         threads=snakemake.threads,
         parameters=snakemake.output.parameters,
         trials=snakemake.output.trials,

@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
-
-from softkin.interface import ModelSpec
 from softkin.models import (
     gaussian_process,
     gradient_boosting,
@@ -18,6 +14,7 @@ from softkin.models import (
     svr,
     xgboost,
 )
+from softkin.models.spec import ModelSpec
 
 #: In the order of the paper's tables, then ours.
 MODELS: dict[str, ModelSpec] = {
@@ -32,9 +29,3 @@ MODELS: dict[str, ModelSpec] = {
     "ridge": ridge.SPEC,
     "huber": huber.SPEC,
 }
-
-
-def source_files(model: str) -> list[Path]:
-    """The files that decide what `model` is: its own, and those of our own estimators that it names."""
-    module = sys.modules[MODELS[model].build.__module__]
-    return [Path(str(module.__file__)), *getattr(module, "ALSO_DECIDED_BY", ())]

@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from softkin.interface import TRENDS, Array, ModelSpec, Params, Samples
+from softkin.core.samples import Array, Params, Samples
+from softkin.models.spec import TRENDS, ModelSpec
 
 if TYPE_CHECKING:
     from optuna.trial import BaseTrial
 
-ALSO_DECIDED_BY = (Path(__file__).parent.parent / "estimators" / "bounded_gaussian_process.py",)
-
 
 def build(params: Params, seed: int, threads: int) -> Any:
     """Exact GP on all rows; kernel hyperparameters learnt on at most `learning_rows` of them."""
-    from softkin.estimators.bounded_gaussian_process import BoundedGaussianProcess
+    from softkin.models.estimators.bounded_gaussian_process import BoundedGaussianProcess
 
     return BoundedGaussianProcess(**params, random_state=seed)
 

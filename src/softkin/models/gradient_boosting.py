@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from softkin.interface import TRENDS, ModelSpec, Params
+from softkin.core.samples import Params
+from softkin.models.spec import TRENDS, ModelSpec
 
 if TYPE_CHECKING:
     from optuna.trial import BaseTrial
-
-ALSO_DECIDED_BY = (Path(__file__).parent.parent / "estimators" / "detrended.py",)
 
 
 def build(params: Params, seed: int, threads: int) -> Any:
@@ -18,7 +16,7 @@ def build(params: Params, seed: int, threads: int) -> Any:
     from sklearn.ensemble import GradientBoostingRegressor
     from sklearn.multioutput import MultiOutputRegressor
 
-    from softkin.estimators.detrended import detrended
+    from softkin.models.estimators.detrended import detrended
 
     return detrended(lambda rest: MultiOutputRegressor(GradientBoostingRegressor(**rest, random_state=seed)), params)
 

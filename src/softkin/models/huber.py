@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from softkin.interface import ModelSpec, Params
+from softkin.core.samples import Params
+from softkin.models.spec import ModelSpec
 
 if TYPE_CHECKING:
     from optuna.trial import BaseTrial
@@ -45,4 +46,5 @@ SPEC = ModelSpec(
     search_space=search_space,
     first_trials=tuple({"degree": degree, "epsilon": 1.35, "alpha": 1e-4} for degree in (2, 3, 4)),
     is_cheap=True,
+    is_robust=True,
 )

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from softkin.interface import ModelSpec, Params
+from softkin.core.samples import Params
+from softkin.models.spec import ModelSpec
 
 if TYPE_CHECKING:
     from optuna.trial import BaseTrial

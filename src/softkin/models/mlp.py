@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from softkin.interface import TRENDS, Array, ModelSpec, Params, Samples
+from softkin.core.samples import Array, Params, Samples
+from softkin.models.spec import TRENDS, ModelSpec
 
 if TYPE_CHECKING:
     from optuna.trial import BaseTrial
-
-ALSO_DECIDED_BY = tuple(
-    Path(__file__).parent.parent / "estimators" / name for name in ("detrended.py", "last_layer_laplace.py")
-)
 
 
 def build(params: Params, seed: int, threads: int) -> Any:
@@ -22,7 +18,7 @@ def build(params: Params, seed: int, threads: int) -> Any:
 
     Of several `networks` (default 1), which differ in their seed alone, the mean; all on what is left of a `trend`.
     """
-    from softkin.estimators.detrended import detrended
+    from softkin.models.estimators.detrended import detrended
 
     return detrended(lambda rest: _networks(rest, seed), params)
 
@@ -44,13 +40,13 @@ def spread(regressor: Any, train: Samples, commands: Array) -> Array:
     Several networks are a mixture: the mean of their variances, and the variance of their means (Lakshminarayanan et
     al. 2017, section 2.4).
     """
-    from softkin.estimators.detrended import spread_around
+    from softkin.models.estimators.detrended import spread_around
 
     return spread_around(_spread_of_networks, regressor, train, commands)
 
 
 def _spread_of_networks(regressor: Any, train: Samples, commands: Array) -> Array:
-    from softkin.estimators.last_layer_laplace import last_layer_laplace
+    from softkin.models.estimators.last_layer_laplace import last_layer_laplace
 
     networks = getattr(regressor, "estimators_", [regressor])
     variances = [np.square(last_layer_laplace(network, train, commands)) for network in networks]

@@ -2,31 +2,29 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from softkin.interface import TRENDS, Array, ModelSpec, Params, Samples
+from softkin.core.samples import Array, Params, Samples
+from softkin.models.spec import TRENDS, ModelSpec
 
 if TYPE_CHECKING:
     from optuna.trial import BaseTrial
-
-ALSO_DECIDED_BY = (Path(__file__).parent.parent / "estimators" / "detrended.py",)
 
 
 def build(params: Params, seed: int, threads: int) -> Any:
     """RandomForestRegressor(**params), on what is left of a `trend`."""
     from sklearn.ensemble import RandomForestRegressor
 
-    from softkin.estimators.detrended import detrended
+    from softkin.models.estimators.detrended import detrended
 
     return detrended(lambda rest: RandomForestRegressor(**rest, random_state=seed, n_jobs=threads), params)
 
 
 def spread(regressor: Any, train: Samples, commands: Array) -> Array:
     """Standard deviation over the trees."""
-    from softkin.estimators.detrended import spread_around
+    from softkin.models.estimators.detrended import spread_around
 
     return spread_around(_spread_of_trees, regressor, train, commands)
 

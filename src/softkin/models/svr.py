@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from softkin.interface import TRENDS, ModelSpec, Params
+from softkin.core.samples import Params
+from softkin.models.spec import TRENDS, ModelSpec
 
 if TYPE_CHECKING:
     from optuna.trial import BaseTrial
-
-ALSO_DECIDED_BY = (Path(__file__).parent.parent / "estimators" / "detrended.py",)
 
 #: Bounds libsvm's iterations per coordinate. Without it C=100, epsilon=0.001 runs for minutes on 3160 rows; with it
 #: the machine stops close to the optimum.
@@ -23,7 +21,7 @@ def build(params: Params, seed: int, threads: int) -> Any:
     from sklearn.multioutput import MultiOutputRegressor
     from sklearn.svm import SVR
 
-    from softkin.estimators.detrended import detrended
+    from softkin.models.estimators.detrended import detrended
 
     return detrended(lambda rest: MultiOutputRegressor(SVR(**rest, cache_size=CACHE_MB)), params)
 

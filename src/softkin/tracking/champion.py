@@ -21,12 +21,13 @@ from mlflow.types import ColSpec, ParamSchema, ParamSpec, Schema
 from mlflow.utils.mlflow_tags import MLFLOW_MODEL_VERSIONS
 
 import softkin
-from softkin.calibrated_model import CalibratedModel
-from softkin.choosing_intervals import nearest_level
-from softkin.files import read_json, sha256_of
-from softkin.interface import AUTO, command_columns, coordinate_columns
+from softkin.core.files import read_json, sha256_of
+from softkin.core.samples import command_columns, coordinate_columns
 from softkin.tracking.model_card import model_card
 from softkin.tracking.store import CONTENT, NOTE, PARENT, Campaign, Record, client_of, common_tags, experiment_of, put
+from softkin.uncertainty.calibrated_model import CalibratedModel
+from softkin.uncertainty.choose import nearest_level
+from softkin.uncertainty.intervals.spec import AUTO
 
 logger = logging.getLogger("softkin")
 

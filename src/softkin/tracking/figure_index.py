@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from softkin.files import sha256_of
+from softkin.core.files import sha256_of
 
 #: (model, preset, interval_method) -> the pictures it is shown in; '' where a figure shows no single one.
 Shown = dict[tuple[str, str, str], list[Path]]

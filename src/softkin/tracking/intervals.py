@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from softkin.files import read_json
-from softkin.interface import TEST
+from softkin.core.files import read_json
+from softkin.core.samples import TEST
 from softkin.tracking.figure_index import content_of, shown_in
 from softkin.tracking.store import (
     NOTE,

@@ -7,10 +7,11 @@ from typing import Any
 
 import pandas as pd
 
-from softkin.calibrated_model import CalibratedModel
-from softkin.findings import counted
-from softkin.interface import EXTRAPOLATION, MARGINAL, TEST
-from softkin.tables.paper_layout import format_number
+from softkin.core.samples import EXTRAPOLATION, TEST
+from softkin.data.audit.findings import counted
+from softkin.reporting.tables.paper_layout import format_number
+from softkin.uncertainty.calibrated_model import CalibratedModel
+from softkin.uncertainty.intervals.spec import MARGINAL
 
 #: What to warn of before anything else, by the origin of the data.
 ORIGINS = {"stand-in": "STAND-IN: simulated data in place of the published ones. Nothing here is about the real robot."}

@@ -12,7 +12,8 @@ import pandas as pd
 from mlflow.entities import Dataset, DatasetInput, InputTag
 
 from softkin import __version__
-from softkin.files import read_json, sha256_of
+from softkin.core.files import read_json, sha256_of
+from softkin.core.runs import Run
 from softkin.tracking.figure_index import content_of, shown_in
 from softkin.tracking.saved_view import NAME, TAG, saved_view
 from softkin.tracking.store import (
@@ -38,7 +39,7 @@ def log_dataset(
     data_card: str | Path,
     point: str | Path,
     figures: str | Path,
-    runs: Mapping[tuple[str, str], Mapping[str, str]],
+    runs: Mapping[Run, Mapping[str, str]],
 ) -> dict[str, str]:
     """Log the runs of one dataset, each (model, preset) a child of the campaign's run; return key -> run id.
 

@@ -6,7 +6,7 @@ import base64
 import json
 import zlib
 
-from softkin.interface import EXTRAPOLATION, TEST
+from softkin.core.samples import EXTRAPOLATION, TEST
 
 NAME = "Models by error"
 #: MLflow's UI keeps a saved view in a tag of the experiment; its link ends with viewStateShareKey=models_by_error.

@@ -10,7 +10,7 @@ import pandas as pd
 from mlflow.models import set_model
 from mlflow.pyfunc.model import PythonModel
 
-from softkin.interface import coordinate_columns
+from softkin.core.samples import coordinate_columns
 
 
 class ServedModel(PythonModel):

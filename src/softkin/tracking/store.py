@@ -24,8 +24,8 @@ from filelock import FileLock
 from mlflow import MlflowClient
 from mlflow.entities import DatasetInput, Metric, Param, Run
 
-from softkin.findings import LEAK
-from softkin.interface import SoftkinError
+from softkin.core.errors import SoftkinError
+from softkin.data.audit.findings import LEAK
 
 logger = logging.getLogger("softkin")
 

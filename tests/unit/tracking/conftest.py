@@ -9,8 +9,8 @@ import pandas as pd
 import pytest
 from mlflow import MlflowClient
 
-from softkin.files import write_json
-from softkin.interface import SUBSETS
+from softkin.core.files import write_json
+from softkin.core.samples import SUBSETS
 from softkin.tracking import Campaign, create_store
 
 ABOUT = {

@@ -18,14 +18,14 @@ import pytest
 from mlflow import MlflowClient
 from mlflow.exceptions import MlflowException
 
-from softkin.calibrated_model import CalibratedModel, calibrated
-from softkin.files import write_json
-from softkin.fitting import fit_quietly, kinematic_model
-from softkin.interface import SUBSETS, Samples
-from softkin.intervals import INTERVAL_METHODS
+from softkin.core.files import write_json
+from softkin.core.samples import SUBSETS, Samples
 from softkin.models import MODELS
 from softkin.tracking import Campaign, create_store, log_champion
 from softkin.tracking.store import PARENT
+from softkin.training.fit import fit_quietly, kinematic_model
+from softkin.uncertainty.calibrated_model import CalibratedModel, calibrated
+from softkin.uncertainty.intervals import INTERVAL_METHODS
 from tests.conftest import bending_arm
 
 NAME = "softkin-finger"

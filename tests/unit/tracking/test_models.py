@@ -12,8 +12,8 @@ from typing import Any
 import pandas as pd
 from mlflow import MlflowClient
 
-from softkin.files import read_json
-from softkin.interface import SUBSETS
+from softkin.core.files import read_json
+from softkin.core.samples import SUBSETS
 from softkin.tracking import Campaign, log_dataset, log_intervals
 from softkin.tracking.saved_view import TAG
 from softkin.tracking.store import CONTENT, KEY, PARENT

@@ -11,7 +11,7 @@ import pytest
 from mlflow import MlflowClient
 from mlflow.entities import ViewType
 
-from softkin.interface import SoftkinError
+from softkin.core.errors import SoftkinError
 from softkin.tracking import Campaign, log_dataset
 
 

@@ -1,0 +1,54 @@
+"""A run's state in words: the lines of the screen, and the one line that a log gets for a job."""
+
+from __future__ import annotations
+
+from softkin.cli.watching.progress import Job, Progress, Remaining, trials
+from softkin.core.durations import readable, roughly
+
+BAR = 30
+
+
+def time_left(remaining: Remaining) -> str:
+    """'about 14 min left', 'roughly 3 min left', 'no estimate yet'."""
+    seconds = remaining.seconds
+    if seconds is None or (remaining.is_rough and seconds < 30):
+        return "no estimate yet"
+    return f"{'roughly' if remaining.is_rough else 'about'} {roughly(seconds)} left".replace("about under", "under")
+
+
+def heading(progress: Progress, now: float) -> str:
+    """'63 of 197 jobs · 4 min 12 s used · about 14 min left'; how many failed, if any did."""
+    failed = f" · {progress.failed} FAILED" if progress.failed else ""
+    used = readable(round(now - progress.start)) if now - progress.start >= 60 else f"{now - progress.start:.0f} s"
+    left = time_left(progress.remaining(now))
+    return f"{progress.done} of {len(progress.jobs)} jobs{failed} · {used} used · {left}"
+
+
+def screen_lines(progress: Progress, now: float, *, title: str, width: int, height: int) -> list[str]:
+    """At most `height` lines of at most `width` characters: the whole run, its stages, and each job that runs."""
+    filled = BAR * progress.done // max(1, len(progress.jobs))
+    lines = [f"{title} · {heading(progress, now)}", f"[{'#' * filled}{'.' * (BAR - filled)}]  {_stages(progress)}"]
+    rows = [_running(job, now) for job in progress.running]
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    lines += ["  " + "  ".join(map(str.ljust, row, widths)) for row in rows]
+    return [line.rstrip() if len(line) <= width else line[: width - 1] + "…" for line in lines[:height]]
+
+
+def ended_line(job: Job, progress: Progress, now: float) -> str:
+    """'[63 of 197 jobs · 4 min 12 s used · about 14 min left] tune finger gp: 12.3 s'."""
+    how = "FAILED" if job.taken is None else readable(job.taken)
+    return f"[{heading(progress, now)}] {job.name}: {how}"
+
+
+def _stages(progress: Progress) -> str:
+    """The stages that are not done."""
+    return ", ".join(f"{stage} {done}/{total}" for stage, done, total in progress.stages() if done < total)
+
+
+def _running(job: Job, now: float) -> list[str]:
+    """Stage; dataset; model and preset; trials done; time used."""
+    others = " ".join(value for name, value in job.wildcards.items() if name != "dataset")
+    study = trials(job.log)
+    told = f"trial {study[0]} of {study[1]}" if study else ""
+    used = readable(now - job.started) if job.started is not None else ""
+    return [job.stage, job.wildcards.get("dataset", ""), others, told, used]

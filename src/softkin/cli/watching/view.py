@@ -1,0 +1,137 @@
+"""The handler that takes the place of Snakemake's own on the terminal, from `onstart` to the end of the run."""
+
+from __future__ import annotations
+
+import logging
+import os
+import re
+import threading
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from typing import TextIO
+
+from softkin.cli.watching.lines import ended_line, screen_lines
+from softkin.cli.watching.progress import Job, Progress
+from softkin.core.durations import readable
+from softkin.core.job import ON_A_SCREEN
+
+#: The name that Snakemake gives the handler that writes to the terminal.
+SNAKEMAKES_OWN = "DefaultStreamHandler"
+#: A line of a job's log that is a warning of ours; Python's own name a file and a category, and stay in the log.
+WARNING = re.compile(r"^\S+ \S+ WARNING (?!.*:\d+: \w*Warning: )(.+)$", re.MULTILINE)
+CLEAR_BELOW = "\033[J"
+
+
+class View(logging.Handler):
+    """Tells a run by Snakemake's own events, and lets warnings and errors through to `own`, Snakemake's handler.
+
+    On a terminal one block of lines is drawn over itself once a second, and jobs write to their logs only; anywhere
+    else each job that ends is one line, and jobs tell what they tell.
+    """
+
+    def __init__(
+        self,
+        progress: Progress,
+        own: logging.StreamHandler[TextIO],
+        title: str,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        super().__init__()
+        self.progress, self.own, self.title, self.clock = progress, own, title, clock
+        self.stream = own.stream
+        self.is_screen = self.stream.isatty() and os.environ.get("TERM") != "dumb"
+        self._drawn = 0
+        self._drawing = threading.RLock()
+        self._ended = threading.Event()
+        self._ticker: threading.Thread | None = None
+
+    def start(self, logger: logging.Logger) -> None:
+        """Take the place of Snakemake's handler."""
+        logger.removeHandler(self.own)
+        logger.addHandler(self)
+        if self.is_screen:
+            os.environ[ON_A_SCREEN] = "1"
+            self._ticker = threading.Thread(target=self._tick, daemon=True)
+            self._ticker.start()
+
+    def finish(self, logger: logging.Logger) -> None:
+        """Leave one line and give Snakemake its handler back."""
+        self.close()
+        logger.removeHandler(self)
+        logger.addHandler(self.own)
+        took = readable(self.clock() - self.progress.start)
+        failed = f", {self.progress.failed} failed" if self.progress.failed else ""
+        with suppress(OSError):
+            self._write(f"{self.title}: {self.progress.done} of {len(self.progress.jobs)} jobs in {took}{failed}\n")
+
+    def close(self) -> None:
+        """Stop drawing, and leave the terminal clean; also called when Snakemake ends in an error of its own."""
+        self._ended.set()
+        if self._ticker:
+            self._ticker.join()
+            self._ticker = None
+            os.environ.pop(ON_A_SCREEN, None)
+        with self._drawing, suppress(OSError):
+            self._clear()
+        super().close()
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Take note of an event, show what must be seen.
+
+        A reader who is gone (`snakemake | head`, a terminal that was closed) must not stop the run: Snakemake would
+        wait for the job whose end it was telling. The log file in .snakemake/log has it all.
+        """
+        event, now = getattr(record, "event", None), self.clock()
+        if event not in ("job_started", "job_finished", "job_error") and record.levelno < logging.WARNING:
+            return
+        with self._drawing:
+            ended = None
+            if event == "job_started":
+                for number in record.__dict__["jobs"]:
+                    self.progress.begin(number, now)
+            elif event == "job_finished":
+                ended = self.progress.end(record.__dict__["job_id"], now)
+            elif event == "job_error":
+                ended = self.progress.end(record.__dict__["jobid"], now, failed=True)
+            with suppress(OSError):
+                self._clear()
+                self._tell(ended, now)
+                if record.levelno >= logging.WARNING:
+                    self.own.handle(record)
+                self._draw()
+
+    def _tell(self, job: Job | None, now: float) -> None:
+        if job is None:
+            return
+        if not self.is_screen:
+            self._write(ended_line(job, self.progress, now) + "\n")
+        elif job.log is not None and job.log.is_file() and not job.failed:  # of a failed one Snakemake shows the log
+            for warning in WARNING.findall(job.log.read_text(encoding="utf-8", errors="replace")):
+                self._write(f"{job.name}: {warning}\n")
+
+    def _tick(self) -> None:
+        while not self._ended.wait(1.0):
+            with self._drawing, suppress(OSError):
+                self._clear()
+                self._draw()
+
+    def _clear(self) -> None:
+        if self._drawn:
+            self._write(f"\033[{self._drawn}F{CLEAR_BELOW}")
+            self._drawn = 0
+
+    def _draw(self) -> None:
+        if not self.is_screen or self._ended.is_set():
+            return
+        width, height = os.get_terminal_size(self.stream.fileno())
+        # A terminal that does not tell its size says 0.
+        lines = screen_lines(
+            self.progress, self.clock(), title=self.title, width=width or 80, height=(height or 24) - 1
+        )
+        self._write("".join(f"{line}\n" for line in lines))
+        self._drawn = len(lines)
+
+    def _write(self, text: str) -> None:
+        self.stream.write(text)
+        self.stream.flush()

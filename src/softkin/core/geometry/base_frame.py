@@ -1,0 +1,165 @@
+"""Where a robot's base stands and which way it points: declared, or estimated from `train`."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from scipy.optimize import least_squares
+from scipy.spatial.transform import Rotation
+from sklearn.preprocessing import StandardScaler
+
+from softkin.core.geometry.constant_curvature import from_arcs, to_arcs
+from softkin.core.rows import Indices, sampled_rows
+from softkin.core.samples import CONSTANT_RANGE_MM, Array
+from softkin.core.smooth_fit import fit_smoothly
+
+#: Rows that are looked at, drawn with a fixed seed: a million of them would stand in memory several times.
+MAX_ROWS_SEEN = 10_000
+#: Rows that a frame is estimated from, evenly spread over those sorted by how far they are bent aside.
+MAX_ROWS = 300
+#: A residual of this share of the robot's reach counts as an outlier's.
+TYPICAL_RESIDUAL = 0.01
+#: Rows this many robust standard deviations off a smooth fit say nothing of the base.
+OUTLIER = 8.0
+#: How far below the highest marker the base may be, in units of how far markers go aside: where the search starts.
+STARTS = (0.5, 1.0, 2.0, 4.0)
+REFINED_STARTS = 4
+#: An axis off z by less (rad) is z: the squares of such numbers may underflow.
+PARALLEL = 1e-15
+#: Estimates that are remembered: a study fits all its trials to the same few parts of `train`.
+REMEMBERED = 64
+
+
+#: The bytes of an array of doubles, and its shape.
+_Key = tuple[bytes, tuple[int, ...]]
+
+
+@dataclass(frozen=True, slots=True)
+class BaseFrame:
+    """`origin` (3,) in mm and `axis` (3,), the unit vector along which the straight robot leaves its base."""
+
+    origin: Array
+    axis: Array
+
+    def to_base(self, points: Array) -> Array:
+        """Points (n_rows, n_markers, 3) in the data's frame -> the frame of the base, whose z is the axis."""
+        return np.asarray((points - self.origin) @ self.axes())
+
+    def from_base(self, points: Array) -> Array:
+        """The inverse of `to_base`."""
+        return np.asarray(points @ self.axes().T + self.origin)
+
+    def axes(self) -> Array:
+        """Matrix (3, 3) from the data's frame to that of the base, for rows: the smallest turn of z into the axis."""
+        return np.asarray(self._rotation().as_matrix())
+
+    def _rotation(self) -> Rotation:
+        cross, cosine = np.cross([0.0, 0.0, 1.0], self.axis), self.axis[2]
+        sine = float(np.linalg.norm(cross))
+        if sine < PARALLEL:
+            return Rotation.identity() if cosine > 0 else Rotation.from_rotvec([np.pi, 0, 0])
+        return Rotation.from_rotvec(cross / sine * np.arctan2(sine, cosine))
+
+
+def base_frame(commands: Array, points: Array, declared: Mapping[str, Any] | None = None) -> BaseFrame:
+    """The frame in which commands (n_rows, n_commands) say most simply how a robot bends; points are its markers
+    (n_rows, n_markers, 3) in mm.
+
+    `declared` may give `origin` (mm; None where a coordinate is not known) and `axis`. What it does not give is
+    estimated: the origin is a marker that never moves, if there is one; else origin and axis are those for which arcs
+    that are linear in the commands come closest to the markers, by robust least squares.
+    """
+    declared = declared or {}
+    still = np.ptp(points, axis=0).max(axis=1) <= CONSTANT_RANGE_MM
+    origin = np.array(declared.get("origin") or [None] * 3, dtype=np.float64)
+    if np.isnan(origin).all() and still.any():
+        origin = points[0, np.flatnonzero(still)[0]]
+    axis = _unit(declared["axis"]) if declared.get("axis") else None
+    if axis is not None and not np.isnan(origin).any():
+        return BaseFrame(origin, axis)
+    seen = sampled_rows(len(commands), MAX_ROWS_SEEN, seed=0)
+    commands, moving = commands[seen], points[np.ix_(seen, ~still)]
+    rows = _telling_rows(commands, moving)
+    telling = np.asarray(commands[rows], dtype=np.float64), np.asarray(moving[rows], dtype=np.float64)
+    return _remembered(*((array.tobytes(), array.shape) for array in telling), origin.tobytes(), _bytes(axis))
+
+
+def _telling_rows(commands: Array, points: Array) -> Indices:
+    """Rows without outliers, at most `MAX_ROWS`, evenly spread from those in the middle to those bent farthest."""
+    positions = points.reshape(len(points), -1)
+    fit = fit_smoothly(commands, positions, np.arange(len(commands)))
+    good = np.abs(fit.residuals(commands, positions)) <= fit.limits(commands, OUTLIER)
+    rows = np.flatnonzero(good.all(axis=1)) if fit.degree else np.arange(len(commands))
+    aside = np.linalg.norm(points[rows, -1] - np.median(points[rows, -1], axis=0), axis=1)
+    return rows[np.argsort(aside, kind="stable")][:: max(1, len(rows) // MAX_ROWS)]
+
+
+@lru_cache(REMEMBERED)
+def _remembered(commands: _Key, points: _Key, origin: bytes, axis: bytes | None) -> BaseFrame:
+    """`_estimated`, of the bytes and shapes of its arguments."""
+    of_commands, of_points = (np.frombuffer(content).reshape(shape) for content, shape in (commands, points))
+    return _estimated(of_commands, of_points, np.frombuffer(origin), None if axis is None else np.frombuffer(axis))
+
+
+def _estimated(commands: Array, points: Array, origin: Array, axis: Array | None) -> BaseFrame:
+    """`origin` is NaN where it is to be estimated, `axis` None."""
+    terms = np.column_stack([np.ones(len(commands)), StandardScaler().fit_transform(commands)])
+    solve = np.linalg.pinv(terms)
+    flat = points.reshape(-1, 3)
+    # A planar robot's base lies in its plane.
+    spread_out = np.ptp(flat, axis=0) > CONSTANT_RANGE_MM
+    moves = np.isnan(origin) & spread_out
+    within = np.eye(3)[spread_out]
+    reach = float(np.linalg.norm(np.ptp(flat, axis=0)))
+
+    def moved(start: BaseFrame, values: Array) -> BaseFrame:
+        """The frame that lies `values` from a start: shares of the reach for the origin, radians for the axis."""
+        new = start.origin.copy()
+        new[moves] += reach * values[: moves.sum()]
+        if axis is not None:
+            return BaseFrame(new, axis)
+        sideways = np.linalg.svd((within @ start.axis)[None, :])[2][1:] @ within
+        return BaseFrame(new, _unit(start.axis + values[moves.sum() :] @ sideways))
+
+    def residuals(values: Array, start: BaseFrame) -> Array:
+        frame = moved(start, values)
+        fitted = (terms @ (solve @ to_arcs(frame.to_base(points)).reshape(len(points), -1))).reshape(points.shape)
+        return np.asarray((frame.from_base(from_arcs(fitted)) - points).ravel() / (TYPICAL_RESIDUAL * reach))
+
+    nothing = np.zeros(moves.sum() + (len(within) - 1 if axis is None else 0))
+    starts = sorted(
+        _starts(flat, within, origin, axis), key=lambda start: float(np.log1p(residuals(nothing, start) ** 2).sum())
+    )
+    found = [
+        (start, least_squares(residuals, nothing, args=(start,), loss="soft_l1", x_scale=0.1, max_nfev=60))
+        for start in starts[:REFINED_STARTS]
+    ]
+    start, best = min(found, key=lambda pair: float(pair[1].cost))
+    return moved(start, best.x)
+
+
+def _starts(points: Array, within: Array, origin: Array, axis: Array | None) -> Sequence[BaseFrame]:
+    """Where the search starts: along every signed coordinate axis `within` the robot's space, at some depths."""
+    axes = [sign * row for row in within for sign in (1.0, -1.0)] if axis is None else [axis]
+    middle = np.median(points, axis=0)
+    starts = []
+    for along, depth in itertools.product(axes, STARTS):
+        height = (points - middle) @ along
+        aside = np.linalg.norm(points - middle - np.outer(height, along), axis=1).max()
+        start = middle + along * (height.max() - depth * aside)
+        starts.append(BaseFrame(np.where(np.isnan(origin), start, origin), along))
+    return starts
+
+
+def _bytes(array: Array | None) -> bytes | None:
+    return None if array is None else array.tobytes()
+
+
+def _unit(axis: Any) -> Array:
+    vector = np.asarray(axis, dtype=np.float64)
+    return np.asarray(vector / np.linalg.norm(vector))

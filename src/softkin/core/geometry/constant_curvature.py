@@ -1,0 +1,67 @@
+"""Constant-curvature kinematics: points in the frame of the base <-> the arcs that lead to them.
+
+Source: Webster and Jones (2010), *Design and kinematic modeling of constant curvature continuum robots: a review*,
+International Journal of Robotics Research 29(13).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from softkin.core.samples import CONSTANT_RANGE_MM, Array
+
+#: Bent all the way round, an arc ends where it begins, and which way it went is lost: this close to it (rad) nobody
+#: can tell.
+MAX_BENDING = 1.95 * np.pi
+
+
+def to_arcs(points: Array) -> Array:
+    """Points (n_rows, n_markers, 3) in mm -> arcs (n_rows, n_markers, 3): bending angle towards x and y (rad), length
+    (mm).
+
+    The arc leaves the base along z and ends at (x, y, z) = p: with r = hypot(x, y) it bends by b = 2 atan2(r, z)
+    towards (x, y) / r, and its length is b |p| / (2 sin(b / 2)), or z where it is straight. Bending beyond
+    `MAX_BENDING` counts as that.
+    """
+    x, y, z = np.moveaxis(points, -1, 0)
+    r = np.hypot(x, y)
+    bending = np.minimum(2 * np.arctan2(r, z), MAX_BENDING)
+    per_mm = np.divide(bending, r, out=np.zeros_like(r), where=r > 0)
+    length = np.linalg.norm(points, axis=-1) / _sinc(bending / 2)
+    return np.stack([per_mm * x, per_mm * y, length], axis=-1)
+
+
+def from_arcs(arcs: Array) -> Array:
+    """The inverse of `to_arcs`, for arcs of any bending (n_rows, n_markers, 3).
+
+    x = s (1 - cos b) / b * b_x / b = s b_x / 2 (sin(b / 2) / (b / 2))^2, z = s sin(b) / b: nothing is divided by zero.
+    """
+    b_x, b_y, length = np.moveaxis(arcs, -1, 0)
+    bending = np.hypot(b_x, b_y)
+    sideways = length / 2 * np.square(_sinc(bending / 2))
+    return np.stack([sideways * b_x, sideways * b_y, length * _sinc(bending)], axis=-1)
+
+
+def spread_of_points(arcs: Array, spread: Array, axes: Array) -> Array:
+    """Standard deviation of points (n_rows, n_markers, 3) along `axes` (3, 3), to first order, from that of their arcs'
+    coordinates, which are taken to be independent.
+    """
+    squares = np.zeros_like(arcs)
+    for axis in range(3):
+        step = np.zeros_like(arcs)
+        step[..., axis] = np.maximum(1e-6, 1e-6 * np.abs(arcs[..., axis]))
+        slope = (from_arcs(arcs + step) - from_arcs(arcs - step)) / (2 * step[..., axis : axis + 1])
+        squares += np.square((slope * spread[..., axis : axis + 1]) @ axes)
+    return np.sqrt(squares)
+
+
+def in_domain(points: Array) -> Array:
+    """Which points (n_rows, n_markers, 3) one arc leads to: away from the base, bent by at most `MAX_BENDING`."""
+    x, y, z = np.moveaxis(points, -1, 0)
+    away = np.linalg.norm(points, axis=-1) > CONSTANT_RANGE_MM
+    return np.asarray(away & (2 * np.arctan2(np.hypot(x, y), z) <= MAX_BENDING))
+
+
+def _sinc(angle: Array) -> Array:
+    """sin(angle) / angle."""
+    return np.asarray(np.sinc(angle / np.pi))

@@ -1,0 +1,92 @@
+"""What every workflow script needs around its one call: a log, clear errors, one thread per core it was given."""
+
+from __future__ import annotations
+
+import logging
+import os
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, nullcontext
+from dataclasses import dataclass
+from pathlib import Path
+
+from softkin.core.errors import SoftkinError
+
+logger = logging.getLogger("softkin")
+
+#: Set while `watching.view` draws its screen: what jobs tell goes to their logs alone, or it would tear the screen.
+ON_A_SCREEN = "SOFTKIN_ON_A_SCREEN"
+
+
+@contextmanager
+def job(log: str, label: str) -> Iterator[None]:
+    """Run a job: messages go to the file `log` and, from level INFO, to the terminal, marked with `label`. Under
+    `ON_A_SCREEN` nothing goes to the terminal, and what libraries write to it goes to the file.
+
+    A `SoftkinError` ends the job with its message alone and exit status 1; anything else is a defect of ours and
+    keeps its traceback, in the log file too.
+    """
+    Path(log).parent.mkdir(parents=True, exist_ok=True)
+    file = Path(log).open("w", encoding="utf-8")  # noqa: SIM115 (closed below, after the handlers that write to it)
+    to_file = logging.StreamHandler(file)
+    to_file.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(message)s"))
+    to_terminal = logging.StreamHandler(sys.stderr)
+    to_terminal.setLevel(logging.INFO)
+    to_terminal.setFormatter(logging.Formatter(f"{label}: %(message)s"))
+    screen = ON_A_SCREEN in os.environ
+    logger.handlers = [to_file] if screen else [to_file, to_terminal]
+    logger.setLevel(logging.DEBUG)
+    logger.propagate = False
+    logging.captureWarnings(True)
+    logging.getLogger("py.warnings").addHandler(to_file)
+    try:
+        with _terminal_into(file.fileno()) if screen else nullcontext():
+            yield
+    except SoftkinError as error:
+        logger.error("%s", error)
+        raise SystemExit(1) from error
+    except BaseException:
+        logger.handlers = [to_file]
+        logger.exception("the job stopped")
+        raise
+    finally:
+        logger.handlers = []
+        logger.propagate = True
+        logging.captureWarnings(False)
+        logging.getLogger("py.warnings").removeHandler(to_file)
+        file.close()
+
+
+@contextmanager
+def _terminal_into(file: int) -> Iterator[None]:
+    """Whatever this process and its children write to standard output and error goes to the open `file`."""
+    kept = {number: os.dup(number) for number in (1, 2)}
+    sys.stdout.flush()
+    try:
+        for number in kept:
+            os.dup2(file, number)
+        yield
+    finally:
+        sys.stdout.flush()
+        for number, copy in kept.items():
+            os.dup2(copy, number)
+            os.close(copy)
+
+
+@dataclass(slots=True)
+class Stopwatch:
+    """Wall and CPU seconds of the block it times (CPU of this process, all threads)."""
+
+    seconds: float = 0.0
+    cpu_seconds: float = 0.0
+
+
+@contextmanager
+def stopwatch() -> Iterator[Stopwatch]:
+    """Time a block."""
+    watch, wall, cpu = Stopwatch(), time.perf_counter(), time.process_time()
+    try:
+        yield watch
+    finally:
+        watch.seconds, watch.cpu_seconds = time.perf_counter() - wall, time.process_time() - cpu

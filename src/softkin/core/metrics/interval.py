@@ -1,0 +1,104 @@
+"""Interval metrics. Intervals are (n_rows, n_coordinates, 2), truth is (n_rows, n_coordinates), in mm."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import stats
+
+from softkin.core.samples import Array
+
+
+def covered(true: Array, intervals: Array) -> NDArray[np.bool_]:
+    """Whether lower <= x <= upper, (n_rows, n_coordinates)."""
+    return np.asarray((intervals[..., 0] <= true) & (true <= intervals[..., 1]))
+
+
+def widths(intervals: Array) -> Array:
+    """Upper - lower, (n_rows, n_coordinates); mm."""
+    return np.asarray(intervals[..., 1] - intervals[..., 0])
+
+
+def geometric_size(width: Array) -> Array:
+    """Side (n_rows,) of the cube whose volume is that of the box with these widths (n_rows, n_coordinates); mm."""
+    return np.asarray(np.exp(np.log(np.maximum(width, np.finfo(float).tiny)).mean(axis=1)))
+
+
+def winkler_scores(true: Array, intervals: Array, confidence_level: float) -> Array:
+    """Winkler (1972) interval scores (n_rows, n_coordinates), the paper's formula; mm.
+
+    Width, plus 2/alpha times the distance by which the interval misses. For a symmetric interval of constant width
+    the mean is at least twice the mean absolute error of its centre.
+    """
+    alpha = 1.0 - confidence_level
+    below = np.maximum(intervals[..., 0] - true, 0.0)
+    above = np.maximum(true - intervals[..., 1], 0.0)
+    return np.asarray(widths(intervals) + 2.0 / alpha * (below + above))
+
+
+@cache
+def coverage_band(n_rows: int, n_calibration: int, rank: int, band: float = 0.95) -> tuple[float, float]:
+    """Exact central band of the coverage of `n_rows` new rows of a conformal interval of this rank.
+
+    The number of covered rows is beta-binomial(n_rows, k, n + 1 - k) when calibration and new rows are exchangeable
+    and scores have no ties (Vovk 2012; Angelopoulos and Bates 2023, section 3.2).
+    """
+    law = stats.betabinom(n_rows, rank, n_calibration + 1 - rank)
+    tail = (1.0 - band) / 2
+    return float(law.ppf(tail)) / n_rows, float(law.ppf(1.0 - tail)) / n_rows
+
+
+@cache
+def coverage_p_value(n_covered: int, n_rows: int, n_calibration: int, rank: int) -> float:
+    """Two-sided exact p-value of this many covered rows under the same law."""
+    law = stats.betabinom(n_rows, rank, n_calibration + 1 - rank)
+    return float(min(1.0, 2.0 * min(law.cdf(n_covered), law.sf(n_covered - 1))))
+
+
+@cache
+def clopper_pearson(n_covered: int, n_rows: int, band: float = 0.95) -> tuple[float, float]:
+    """Exact binomial confidence interval of a coverage (Clopper and Pearson 1934)."""
+    interval = stats.binomtest(n_covered, n_rows).proportion_ci(band, method="exact")
+    return float(interval.low), float(interval.high)
+
+
+def holm(p_values: Array) -> Array:
+    """Holm's (1979) adjusted p-values: reject where at most the error rate, for the whole family at once."""
+    order = np.argsort(p_values, kind="stable")
+    factors = np.arange(len(p_values), 0, -1)
+    adjusted = np.empty(len(p_values))
+    adjusted[order] = np.minimum(1.0, np.maximum.accumulate(factors * p_values[order]))
+    return adjusted
+
+
+def worst_slab(
+    commands: Array, inside: Array, seed: int, share: float = 0.2, n_directions: int = 200
+) -> NDArray[np.intp]:
+    """Rows of the slab a <= v'u <= b of command space with the lowest coverage, at least `share` of all rows.
+
+    Searched on a random half of the rows over random directions v, and read off the other half, so that the worst of
+    many looks no worse than it is. `inside` (n_rows,) is the share of covered coordinates; returns row numbers.
+    Source: Cauchois, Gupta and Duchi (2021), section 4; Romano, Sesia and Candes (2020).
+    """
+    rng = np.random.default_rng(seed)
+    order = rng.permutation(len(commands))
+    search, rest = np.array_split(order, 2)
+    scale = commands.std(axis=0)
+    standardised = (commands - commands.mean(axis=0)) / np.where(scale > 0, scale, 1.0)
+    least = max(1, int(np.ceil(share * len(search))))
+    worst, found = np.inf, (np.zeros(commands.shape[1]), -np.inf, np.inf)
+    for direction in rng.standard_normal((n_directions, commands.shape[1])):
+        values = standardised[search] @ direction
+        ranked = np.argsort(values, kind="stable")
+        sums = np.concatenate([[0.0], np.cumsum(inside[search][ranked])])
+        for length in (least, (least + len(search)) // 2):
+            means = (sums[length:] - sums[:-length]) / length
+            start = int(np.argmin(means))
+            if means[start] < worst:
+                ends = values[ranked[[start, start + length - 1]]]
+                worst, found = float(means[start]), (direction, float(ends[0]), float(ends[1]))
+    direction, low, high = found
+    values = standardised[rest] @ direction
+    return np.asarray(rest[(low <= values) & (values <= high)])

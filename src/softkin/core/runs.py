@@ -1,0 +1,22 @@
+"""Runs: a model fitted with the parameters of a preset."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+#: Where a model's parameters come from: the paper; a search for the lowest cross-validated error; a search for the
+#: lowest error on outer shells of `train`.
+PAPER, TUNED, OUTER = PRESETS = ("paper", "tuned", "outer")
+#: The presets that a study stands behind.
+SEARCHED = (TUNED, OUTER)
+
+
+class Run(NamedTuple):
+    """One fitted model of a dataset: its name in the registry and the preset of its parameters."""
+
+    model: str
+    preset: str
+
+
+#: The confidence level of the paper's intervals.
+PAPERS_LEVEL = 0.9

@@ -1,0 +1,32 @@
+"""Audit: what a dataset is worth before anything is fitted to it. One file a check, one line here."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from softkin.core.samples import Samples
+from softkin.data.audit import (
+    constant_columns,
+    copied_commands,
+    duplicate_rows,
+    extrapolation_support,
+    few_commands,
+    gross_outliers,
+    near_copies,
+    stuck_poses,
+    subset_shift,
+)
+from softkin.data.audit.findings import CheckResult
+
+#: check(samples of all four subsets, positions in mm) -> findings and numbers; in the order of the card.
+CHECKS: dict[str, Callable[[Mapping[str, Samples]], CheckResult]] = {
+    "copied_commands": copied_commands.check,
+    "near_copies": near_copies.check,
+    "few_commands": few_commands.check,
+    "duplicate_rows": duplicate_rows.check,
+    "constant_columns": constant_columns.check,
+    "stuck_poses": stuck_poses.check,
+    "gross_outliers": gross_outliers.check,
+    "extrapolation_support": extrapolation_support.check,
+    "subset_shift": subset_shift.check,
+}

@@ -1,0 +1,91 @@
+"""Does extrapolation lie outside train? Command norms, and the share of rows outside the convex hull of train commands.
+
+A row is outside when a plane separates its command from all train commands. The plane across the line from the centre
+of train is tried first; then the best one is sought by linear programming (scipy, HiGHS), which works with any number
+of commands: first against a few train commands, then also against those on the wrong side of the plane that was found,
+until there are none (outside) or no plane is left (inside). The answer is that of all `hull` commands at once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import linprog
+
+from softkin.core.rows import command_scale, first_of_each, row_groups, sampled_rows
+from softkin.core.samples import EXTRAPOLATION, SUBSETS, TRAIN, Array, Samples
+from softkin.data.audit.findings import WARNING, CheckResult, Finding
+
+MAX_HULL, MAX_ROWS_LOOKED_AT = 50_000, 100
+#: With less than this share of extrapolation outside the hull, most of it is interpolation.
+OUTSIDE_SHARE = 0.5
+#: Nearer to the hull than this (in standard deviations of the commands on train) counts as inside.
+TOLERANCE = 1e-9
+
+
+def outside_hull(points: Array, hull: Array) -> NDArray[np.bool_]:
+    """Mask (n_points,) of the `points` outside the convex hull of the rows of `hull`, same columns in both."""
+    centre = hull.mean(axis=0)
+    points, hull = points - centre, hull - centre
+    return np.array([_is_outside(point, hull) for point in points])
+
+
+def _is_outside(point: Array, hull: Array) -> bool:
+    along, length = hull @ point, np.linalg.norm(point)
+    if along.max() < length**2 - TOLERANCE * length:
+        return True
+    seen = _largest(along, 4 * len(point))
+    while True:
+        # Maximise a x - b over |a_j| <= 1 with a h <= b for each row h seen of the hull; above 0, a plane separates.
+        best = linprog(
+            np.append(-point, 1.0),
+            A_ub=np.column_stack([hull[seen], -np.ones(len(seen))]),
+            b_ub=np.zeros(len(seen)),
+            bounds=[(-1.0, 1.0)] * len(point) + [(None, None)],
+            method="highs",
+        )
+        if -best.fun <= TOLERANCE:
+            return False
+        beyond = hull @ best.x[:-1] - best.x[-1]
+        beyond[seen] = -np.inf
+        if beyond.max() <= TOLERANCE:
+            return True
+        worst = _largest(beyond, 4 * len(point))
+        seen = np.append(seen, worst[beyond[worst] > TOLERANCE])
+
+
+def _largest(values: Array, count: int) -> NDArray[np.intp]:
+    """Places of the `count` largest values."""
+    return np.argpartition(-values, min(count, len(values)) - 1)[:count]
+
+
+def check(samples: Mapping[str, Samples], seed: int = 0) -> CheckResult:
+    """At most one finding, about extrapolation."""
+    train = samples[TRAIN].commands
+    scale = command_scale(train)
+    hull = train[first_of_each(row_groups(train))] / scale
+    hull = hull[sampled_rows(len(hull), MAX_HULL, seed)]
+    numbers: dict[str, Any] = {"train_commands_looked_at": len(hull)}
+    for subset in SUBSETS:
+        norms = np.linalg.norm(samples[subset].commands, axis=1)
+        numbers[subset] = {"norm_min": float(norms.min()), "norm_max": float(norms.max())}
+        if subset == TRAIN:
+            continue
+        rows = sampled_rows(len(samples[subset]), MAX_ROWS_LOOKED_AT, seed)
+        outside = outside_hull(samples[subset].commands[rows] / scale, hull)
+        numbers[subset] |= {"rows_looked_at": len(rows), "share_outside_hull": float(outside.mean())}
+    share = numbers[EXTRAPOLATION]["share_outside_hull"]
+    if share >= OUTSIDE_SHARE:
+        return CheckResult((), numbers)
+    finding = Finding(
+        "extrapolation_inside",
+        WARNING,
+        (EXTRAPOLATION,),
+        f"Only {share:.0%} of the rows of extrapolation (of those looked at) lie outside the convex hull of train "
+        "commands.",
+        "Most of this subset is interpolation: its scores do not say how a model fares outside its data.",
+    )
+    return CheckResult((finding,), numbers)

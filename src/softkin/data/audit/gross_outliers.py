@@ -1,0 +1,90 @@
+"""Gross outliers: rows whose pose lies far from a robust smooth fit, and from what the rows around them do.
+
+Far means both: beyond the limits of the fit at `FAR_SCALES` standard deviations, and by more than `FAR_REACH` of the
+coordinate's reach. The second look, at the neighbours' residuals, spares regions where the fit is poor or the robot
+noisy. Rows that share their pose with another command are left to the check of stuck poses.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from sklearn.neighbors import NearestNeighbors
+
+from softkin.core.rows import (
+    chunks,
+    command_scale,
+    first_of_each,
+    row_groups,
+    sampled_rows,
+    shares_its_pose,
+    split_by_subset,
+    stacked_commands,
+    stacked_positions,
+)
+from softkin.core.samples import TRAIN, Samples, informative_coordinates
+from softkin.core.smooth_fit import fit_smoothly
+from softkin.data.audit.findings import WARNING, CheckResult, counted, finding_of_rows
+
+FAR_SCALES, FAR_REACH = 10.0, 0.01
+N_NEIGHBOURS = 20
+#: The second look is given to this many of the worst rows, among this many rows.
+MAX_CANDIDATES, MAX_NEIGHBOUR_ROWS = 5_000, 100_000
+
+
+def check(samples: Mapping[str, Samples], seed: int = 0) -> CheckResult:
+    """One finding over all subsets."""
+    moving = informative_coordinates(samples[TRAIN].positions)
+    if not moving.any():
+        return CheckResult((), {"not_measured": "no coordinate moves"})
+    commands, positions = stacked_commands(samples), stacked_positions(samples, moving)
+    poses = row_groups(positions)
+    fit = fit_smoothly(commands, positions, first_of_each(poses), seed)
+    numbers: dict[str, Any] = {"degree_of_fit": fit.degree, "rows_fitted": fit.n_fitted}
+    if fit.degree == 0:
+        return CheckResult((), numbers | {"not_measured": "too few distinct rows to fit a plane through"})
+    limit = np.maximum(FAR_SCALES * fit.scale, FAR_REACH * fit.reach)
+    excess = np.empty(len(commands))
+    for part in chunks(len(commands)):
+        excess[part] = (np.abs(fit.residuals(commands[part], positions[part])) / limit).max(axis=1)
+    excess[shares_its_pose(poses, row_groups(commands))] = 0.0
+    candidates = np.flatnonzero(excess > 1)
+    candidates = candidates[np.argsort(-excess[candidates], kind="stable")[:MAX_CANDIDATES]]
+
+    mask = np.zeros(len(commands), dtype=bool)
+    worst = 0.0
+    if len(candidates):
+        scaled = commands / command_scale(samples[TRAIN].commands)
+        others = sampled_rows(len(commands), MAX_NEIGHBOUR_ROWS, seed)
+        tree = NearestNeighbors(n_neighbors=min(N_NEIGHBOURS, len(others))).fit(scaled[others])
+        neighbours = others[tree.kneighbors(scaled[candidates], return_distance=False)]
+        around = fit.residuals(commands[neighbours.ravel()], positions[neighbours.ravel()])
+        around = around.reshape(*neighbours.shape, -1)
+        middle = np.median(around, axis=1)
+        spread = 1.4826 * np.median(np.abs(around - middle[:, None]), axis=1)
+        residuals = fit.residuals(commands[candidates], positions[candidates])
+        misses = np.abs(residuals - middle)
+        limits = np.maximum(limit, fit.limits(commands[candidates], FAR_SCALES))
+        far = (np.abs(residuals) > limits) & (misses > np.maximum(limits, FAR_SCALES * spread))
+        mask[candidates[far.any(axis=1)]] = True
+        worst = float(misses[far].max(initial=0.0))
+    marked = {subset: part.astype(bool) for subset, part in split_by_subset(mask, samples).items()}
+    numbers |= {
+        "rows": {subset: int(part.sum()) for subset, part in marked.items()},
+        "largest_miss_mm": worst,
+        "typical_residual_mm": float(np.median(fit.scale)),
+    }
+    if not mask.any():
+        return CheckResult((), numbers)
+    finding = finding_of_rows(
+        "gross_outliers",
+        WARNING,
+        marked,
+        f"{counted(int(mask.sum()), 'row')} up to {worst:.3g} mm from where the rows around say the robot is; "
+        f"typically they are {numbers['typical_residual_mm']:.2g} mm off.",
+        "Probably a lost marker, a swapped one or a failed simulation. A few such rows set the RMSE: look at them "
+        "before you trust it, and read the MAE and the 95th percentile.",
+    )
+    return CheckResult((finding,), numbers)

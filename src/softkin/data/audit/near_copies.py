@@ -1,0 +1,80 @@
+"""Near copies: rows of the other subsets whose command all but stands in train.
+
+The yardstick is local: the spacing of train around the nearest train command. Where train itself comes in tight bunches
+(one command repeated with jitter), that is the distance to the next bunch, found as a gap in the sorted distances to
+its neighbours. Distances are Euclidean, in standard deviations of each command on train.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from scipy.stats import binom
+from sklearn.neighbors import NearestNeighbors
+
+from softkin.core.rows import command_scale, first_of_each, row_groups, sampled_rows
+from softkin.core.samples import TRAIN, Array, Samples
+from softkin.data.audit.findings import LEAK, LEAK_CONSEQUENCES, CheckResult, finding_of_rows
+
+#: A command nearer than this share of the local spacing is a near copy.
+NEAR_SHARE = 0.01
+#: Neighbours are sorted distances; one that is this many times farther than the one before starts the next bunch.
+GAP, N_NEIGHBOURS = 10.0, 256
+#: By chance, at most this share of independent rows is so near (with a single command; rarer with more). More rows than
+#: such chance brings once in a million datasets are a leak.
+CHANCE_SHARE, CHANCE_OF_FALSE_ALARM = 0.02, 1e-6
+MAX_TRAIN_COMMANDS, MAX_ROWS_LOOKED_AT = 100_000, 2_000
+
+
+def check(samples: Mapping[str, Samples], seed: int = 0) -> CheckResult:
+    """A finding per subset with too many near copies; exact copies are left to their own check."""
+    train = samples[TRAIN].commands
+    scale = command_scale(train)
+    distinct = train[first_of_each(row_groups(train))] / scale
+    distinct = distinct[sampled_rows(len(distinct), MAX_TRAIN_COMMANDS, seed)]
+    numbers: dict[str, Any] = {"train_commands_looked_at": len(distinct), "unit": "standard deviations on train"}
+    if len(distinct) < 3:
+        return CheckResult((), numbers | {"not_measured": "train has fewer than 3 distinct commands"})
+    tree = NearestNeighbors().fit(distinct)
+    typical = distinct[sampled_rows(len(distinct), MAX_ROWS_LOOKED_AT, seed)]
+    numbers["typical_spacing"] = float(np.median(_spacing(tree, typical)))
+    findings = []
+    for subset, consequence in LEAK_CONSEQUENCES.items():
+        looked_at = sampled_rows(len(samples[subset]), MAX_ROWS_LOOKED_AT, seed)
+        distances, nearest = tree.kneighbors(samples[subset].commands[looked_at] / scale, n_neighbors=1)
+        distances = distances[:, 0]
+        spacing = _spacing(tree, distinct[nearest[:, 0]])
+        near = (distances > 0) & (distances < NEAR_SHARE * spacing)
+        count, total = int(near.sum()), len(looked_at)
+        numbers[subset] = {
+            "rows_looked_at": total,
+            "near_copies": count,
+            "nearest_distance_min": float(distances.min()),
+            "nearest_distance_median": float(np.median(distances)),
+        }
+        if count > binom.isf(CHANCE_OF_FALSE_ALARM, total, CHANCE_SHARE):
+            marked = np.zeros(len(samples[subset]), dtype=bool)
+            marked[looked_at[near]] = True
+            findings.append(
+                finding_of_rows(
+                    "near_copied_commands",
+                    LEAK,
+                    {subset: marked},
+                    f"Of {total} rows of {subset} that were looked at, {count} ({count / total:.1%}) lie nearer to "
+                    "a train command than a hundredth of the spacing of train commands there.",
+                    f"{consequence} The commands differ by next to nothing, as if one command had been repeated with "
+                    "jitter and its repetitions spread over the subsets.",
+                )
+            )
+    return CheckResult(tuple(findings), numbers)
+
+
+def _spacing(tree: NearestNeighbors, commands: Array) -> Array:
+    """Distance (n_rows,) from each of `commands`, themselves in the tree, to the nearest one beyond their bunch."""
+    n = min(N_NEIGHBOURS, tree.n_samples_fit_)
+    distances = tree.kneighbors(commands, n_neighbors=n)[0][:, 1:]
+    ratios = distances[:, 1:] / np.maximum(distances[:, :-1], np.finfo(float).tiny)
+    place = np.where(ratios.max(axis=1) > GAP, ratios.argmax(axis=1) + 1, 0)
+    return np.asarray(np.take_along_axis(distances, place[:, None], axis=1)[:, 0])

@@ -1,0 +1,164 @@
+"""The readable page of a data card."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from softkin.core.samples import SUBSETS, TRAIN
+from softkin.data.audit.findings import counted
+
+OTHERS = [subset for subset in SUBSETS if subset != TRAIN]
+#: The page shows this many row numbers of a finding and this many columns of a long table; the JSON has more, and all.
+MAX_ROWS_SHOWN, MAX_COLUMNS_SHOWN = 10, 12
+
+VERDICTS = {
+    "leak": "**Leak.** Scores on this dataset are, at least partly, training error. Its testing tables are marked.",
+    "warning": "**With care.** Read what was found before you trust a score.",
+    "note": "**Sound.** There are remarks, none of which touches the scores.",
+    None: "**Sound.** Nothing was found.",
+}
+
+
+def page(card: Mapping[str, Any]) -> str:
+    """Markdown of a data card (the dictionary that is written as JSON)."""
+    checks = card["checks"]
+    parts = [
+        f"# Data card: {card['title']}",
+        f"`{card['dataset']}`. {VERDICTS[card['worst_severity']]}",
+        "## What was found",
+        *([_finding(finding) for finding in card["findings"]] or ["Nothing."]),
+        "## The rows",
+        _rows(card),
+        *_removed(card["removed_from_train"]),
+        "## Ranges",
+        f"Commands in the file's own unit, positions in mm (the file has {card['unit_in_file']}).",
+        _ranges(card["subsets"]),
+        "## Where the base stands",
+        _base(card["base"]),
+        "## How near the other subsets come to train",
+        _nearness(checks["near_copies"]),
+        "## How far they lie from train",
+        _shift(checks["extrapolation_support"], checks["subset_shift"]),
+        "## How smooth the robot is",
+        _regularity(checks["gross_outliers"]),
+    ]
+    return "\n\n".join(parts) + "\n"
+
+
+def _finding(finding: Mapping[str, Any]) -> str:
+    text = f"- **{finding['severity']}**, `{finding['code']}`: {finding['sentence']} *{finding['consequence']}*"
+    for subset, count in finding["n_rows"].items():
+        shown = ", ".join(map(str, finding["rows"][subset][:MAX_ROWS_SHOWN]))
+        more = ", ..." if count > MAX_ROWS_SHOWN else ""
+        text += f"\n  - {subset}, {counted(count, 'row')} (numbered from 0): {shown}{more}"
+    return text
+
+
+def _rows(card: Mapping[str, Any]) -> str:
+    distinct, duplicates = card["checks"]["few_commands"], card["checks"]["duplicate_rows"]["rows"]
+    copied = card["checks"]["copied_commands"]
+    rows = [
+        [
+            subset,
+            card["subsets"][subset]["rows"],
+            distinct["distinct"][subset],
+            duplicates[subset],
+            copied[subset]["rows"] if subset in copied else "",
+        ]
+        for subset in SUBSETS
+    ]
+    header = ["subset", "rows", "distinct commands", "duplicate rows", "rows whose command is in train"]
+    return (
+        f"{_table(header, rows)}\n\nDistinct commands in all subsets together: {distinct['distinct_in_all_subsets']}."
+    )
+
+
+def _removed(removed: Mapping[str, int] | None) -> list[str]:
+    if removed is None:
+        return []
+    counts = ", ".join(f"{count} {kind.replace('_', ' ')}" for kind, count in removed.items())
+    return [f"Dropped from train before, by `clean`: {counts}. The numbers here are without them."]
+
+
+def _ranges(subsets: Mapping[str, Any]) -> str:
+    columns = [(kind, name) for kind in ("commands", "positions_mm") for name in subsets[TRAIN][kind]]
+    rows = [
+        [name, *("{:.4g} to {:.4g}".format(*subsets[subset][kind][name]) for subset in SUBSETS)]
+        for kind, name in columns[:MAX_COLUMNS_SHOWN]
+    ]
+    left = len(columns) - len(rows)
+    return _table(["column", *SUBSETS], rows) + (f"\n\n{left} more columns are in the JSON file." if left else "")
+
+
+def _base(base: Mapping[str, Any]) -> str:
+    if "not_measured" in base:
+        return f"Not measured: {base['not_measured']}."
+    origin = ", ".join(
+        f"{name} {value:.4g} ({how})"
+        for name, value, how in zip("xyz", base["origin_mm"], base["origin_from"], strict=True)
+    )
+    axis = ", ".join(f"{value:.4g}" for value in base["axis"])
+    return (
+        f"At {origin} mm; the straight robot leaves it along ({axis}), {base['axis_from']}. Arcs from there to the "
+        "markers are what a model in curvature coordinates is fitted to; `base` in the dataset's entry declares it."
+    )
+
+
+def _nearness(near: Mapping[str, Any]) -> str:
+    if "not_measured" in near:
+        return f"Not measured: {near['not_measured']}."
+    rows = [
+        [
+            subset,
+            near[subset]["rows_looked_at"],
+            f"{near[subset]['nearest_distance_min']:.3g}",
+            f"{near[subset]['nearest_distance_median']:.3g}",
+            near[subset]["near_copies"],
+        ]
+        for subset in OTHERS
+    ]
+    return (
+        f"Distance of a command to the nearest train command, in {near['unit']}, among "
+        f"{near['train_commands_looked_at']} distinct train commands; these lie {near['typical_spacing']:.3g} apart "
+        "(median). A near copy lies nearer than a hundredth of the spacing around it, without being the same.\n\n"
+        + _table(["subset", "rows looked at", "smallest", "median", "near copies"], rows)
+    )
+
+
+def _shift(support: Mapping[str, Any], shift: Mapping[str, Any]) -> str:
+    rows = []
+    for subset in SUBSETS:
+        row = [subset, f"{support[subset]['norm_min']:.4g} to {support[subset]['norm_max']:.4g}"]
+        if subset != TRAIN:
+            auc, columns = shift[subset]["auc"], shift[subset]["columns"]
+            worst = max(columns, key=lambda name: columns[name]["ks"])
+            row += [
+                f"{support[subset]['share_outside_hull']:.0%} of {support[subset]['rows_looked_at']}",
+                "too few rows" if auc is None else f"{auc:.3f}",
+                f"{columns[worst]['ks']:.3f} ({worst})",
+            ]
+        rows.append(row + [""] * (5 - len(row)))
+    return (
+        f"The hull is that of {support['train_commands_looked_at']} distinct train commands. The AUC is that of a "
+        "classifier told to tell the subset's commands from those of train: 0.5 is chance, 1 never fails. KS is the "
+        "largest gap between two cumulative distributions (0 to 1), here of the column that differs most; every "
+        f"column's, and its Wasserstein distance, is in the JSON file. At most {shift['rows_classified_at_most']} rows "
+        f"of a subset were classified and {shift['rows_compared_at_most']} compared, drawn with a fixed seed.\n\n"
+        + _table(["subset", "command norm", "outside the hull", "AUC", "largest KS distance"], rows)
+    )
+
+
+def _regularity(outliers: Mapping[str, Any]) -> str:
+    if "not_measured" in outliers:
+        return f"Not measured: {outliers['not_measured']}."
+    return (
+        f"A robust polynomial of degree {outliers['degree_of_fit']}, fitted to {outliers['rows_fitted']} rows, leaves "
+        f"a typical residual of {outliers['typical_residual_mm']:.2g} mm. It only tells outliers and is no model of "
+        "the pool. All rows were held against it."
+    )
+
+
+def _table(header: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
+    lines = [header, ["---"] * len(header), *rows]
+    return "\n".join("| " + " | ".join(map(str, line)) + " |" for line in lines)

@@ -1,0 +1,15 @@
+"""Datasets: readers by source format, the tidy table all later stages read, and its description."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from softkin.core.samples import Samples
+from softkin.data.readers import published_json, simulated, table_file
+
+#: Source format (key `format` of a dataset's entry) -> reader(path, dataset=, source=), `source` the whole entry.
+READERS: dict[str, Callable[..., dict[str, Samples]]] = {
+    "kinn_json": published_json.read,
+    "table_file": table_file.read,
+    "simulated": simulated.read,
+}

@@ -1,0 +1,107 @@
+"""Columns of a Parquet file."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from softkin.core.errors import SoftkinError
+from softkin.core.samples import Array
+
+
+@dataclass(frozen=True, slots=True)
+class ParquetColumns:
+    """A Parquet file and the `names` of its columns in their order."""
+
+    path: Path
+    names: tuple[str, ...]
+
+    def read(self, numbers: Sequence[int], others: Sequence[int]) -> tuple[Array, list[NDArray[Any]]]:
+        """Columns by their places, each once: `numbers` as (n_rows, n_numbers), each of `others` as text or, where the
+        file holds numbers or times, as numbers (n_rows,).
+
+        Raises:
+            SoftkinError: a value of `numbers` is no finite number, or a column holds something else.
+        """
+        import pyarrow as pa
+        import pyarrow.parquet as pq
+
+        try:
+            table = pq.read_table(self.path, columns=[self.names[place] for place in (*numbers, *others)])
+        except (pa.ArrowException, OSError) as error:
+            raise SoftkinError(f"not readable as Parquet: {error}\n  mend: write the file anew") from error
+        values = np.empty((table.num_rows, len(numbers)))
+        for place, number in enumerate(numbers):
+            values[:, place] = self._numbers(table, self.names[number])
+        return values, [self._other(table, self.names[other]) for other in others]
+
+    def place(self, row: int) -> str:
+        """Where row `row` stands in the file."""
+        return f"row {row} (the first is 0)"
+
+    def _numbers(self, table: Any, name: str) -> Array:
+        import pyarrow as pa
+
+        column = table.column(name)
+        kind = column.type
+        if not (pa.types.is_integer(kind) or pa.types.is_floating(kind) or pa.types.is_decimal(kind)):
+            raise SoftkinError(
+                f"{self.place(0)}, column '{name}': no numbers but {kind}\n"
+                "  mend: store the column as numbers, or leave it out of the entry"
+            )
+        self._refuse(name, np.asarray(column.is_null()), "no value")
+        try:
+            numbers = np.asarray(column.cast(pa.float64()).to_numpy(), dtype=np.float64)
+        except pa.ArrowInvalid as error:
+            raise SoftkinError(
+                f"column '{name}': {error}\n  mend: 64-bit floats cannot hold these whole numbers; rescale the column"
+            ) from error
+        self._refuse(name, ~np.isfinite(numbers), "no finite number")
+        return numbers
+
+    def _other(self, table: Any, name: str) -> NDArray[Any]:
+        import pyarrow as pa
+
+        column = table.column(name)
+        kind = column.type
+        self._refuse(name, np.asarray(column.is_null()), "no value")
+        if pa.types.is_timestamp(kind) or pa.types.is_duration(kind):
+            return np.asarray(column.cast(pa.int64()).to_numpy())
+        if pa.types.is_integer(kind) or pa.types.is_floating(kind):
+            numbers = np.asarray(column.to_numpy())
+            self._refuse(name, ~np.isfinite(numbers), "no finite number")
+            return numbers
+        try:
+            return np.asarray(column.cast(pa.string()).to_numpy()).astype(object)
+        except pa.ArrowException as error:
+            raise SoftkinError(
+                f"column '{name}': {kind} cannot split rows\n  mend: store it as text or numbers"
+            ) from error
+
+    def _refuse(self, name: str, bad: NDArray[np.bool_], what: str) -> None:
+        if bad.any():
+            more = f" (and {bad.sum() - 1} more rows)" if bad.sum() > 1 else ""
+            raise SoftkinError(
+                f"{self.place(int(np.argmax(bad)))}, column '{name}': {what}{more}\n  mend: fill it or drop the rows"
+            )
+
+
+def open_parquet(path: Path) -> ParquetColumns:
+    """The columns of the Parquet file `path`.
+
+    Raises:
+        SoftkinError: the file is damaged.
+    """
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    try:
+        names = pq.read_schema(path).names
+    except (pa.ArrowException, OSError) as error:
+        raise SoftkinError(f"not readable as Parquet: {error}\n  mend: write the file anew") from error
+    return ParquetColumns(path, tuple(names))

@@ -1,0 +1,80 @@
+"""Reader of the KINN authors' JSON: {"train"|"val"|"test"|"ext": {"motor_control": [n][p], "position": [n][m][3]}}.
+
+Source: Yoon et al. (2024), doi 10.21227/5h7v-aq35.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from softkin.core.errors import SoftkinError
+from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, VALIDATION, Array, Samples
+
+SUBSET_KEYS = {TRAIN: "train", VALIDATION: "val", TEST: "test", EXTRAPOLATION: "ext"}
+
+
+def read(path: str | Path, *, dataset: str, source: Mapping[str, Any]) -> dict[str, Samples]:
+    """Samples per subset, positions in the file's own unit.
+
+    Raises:
+        SoftkinError: anything that is not `n_commands` and `n_markers` x 3 finite numbers per row, as the entry
+            `source` says; names the dataset, subset, field and row.
+    """
+
+    def fail(where: str, what: str) -> SoftkinError:
+        return SoftkinError(
+            f"dataset '{dataset}', {where}: {what}\n  in {path}\n  mend: correct the file, or its entry in "
+            "config/datasets.yaml; delete the file to retrieve it again"
+        )
+
+    try:
+        content = json.loads(Path(path).read_text(encoding="utf-8"))
+    except (json.JSONDecodeError, UnicodeDecodeError) as error:
+        raise fail("whole file", f"not JSON: {error}") from error
+    if not isinstance(content, dict):
+        raise fail("whole file", f"expected an object with the keys {', '.join(SUBSET_KEYS.values())}")
+
+    subsets = {}
+    for subset, key in SUBSET_KEYS.items():
+        if not isinstance(content.get(key), dict):
+            raise fail(f"subset '{key}'", "missing, or not an object")
+        arrays = {}
+        for field, shape in (("motor_control", (source["n_commands"],)), ("position", (source["n_markers"], 3))):
+            where = f"subset '{key}', field '{field}'"
+            rows = content[key].get(field)
+            if not isinstance(rows, list):
+                raise fail(where, "missing, or not a list")
+            if not rows:
+                raise fail(where, "empty subset: no rows")
+            for index, row in enumerate(rows):
+                problem = _problem(row, shape)
+                if problem:
+                    raise fail(f"{where}, row {index}", problem)
+            arrays[field] = _matrix(rows)
+        lengths = {field: len(rows) for field, rows in arrays.items()}
+        if len(set(lengths.values())) > 1:
+            raise fail(f"subset '{key}'", f"fields of different length: {lengths}")
+        subsets[subset] = Samples(arrays["motor_control"], arrays["position"])
+    return subsets
+
+
+def _matrix(rows: list[Any]) -> Array:
+    return np.asarray(rows, dtype=np.float64).reshape(len(rows), -1)
+
+
+def _problem(value: Any, shape: tuple[int, ...]) -> str | None:
+    """Why `value` is not an array of finite numbers of `shape`, or None."""
+    if not shape:
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            return f"expected a number, found {json.dumps(value)[:40]}"
+        return None if math.isfinite(value) else f"not finite: {value}"
+    if not isinstance(value, list) or len(value) != shape[0]:
+        size = f"{len(value)} values" if isinstance(value, list) else json.dumps(value)[:40]
+        return f"wrong shape: expected {shape[0]} values, found {size}"
+    return next((problem for item in value if (problem := _problem(item, shape[1:]))), None)

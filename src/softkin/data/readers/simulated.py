@@ -1,0 +1,25 @@
+"""Reader of a stand-in: a recipe (JSON: robot, seed, rows) instead of a file of data, simulated when it is read."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from softkin.core.samples import Samples
+
+#: All that decides a simulated pose.
+RECIPE = ("robot", "seed", "rows")
+
+
+def read(path: str | Path, *, dataset: str, source: Mapping[str, Any]) -> dict[str, Samples]:  # noqa: ARG001
+    """Samples per subset, positions in mm.
+
+    Raises:
+        SoftkinError: an unknown robot, or a pose that could not be solved.
+    """
+    from softkin.data.standins.simulating import simulate
+
+    recipe = json.loads(Path(path).read_text(encoding="utf-8"))
+    return simulate(recipe["robot"], n_rows=recipe["rows"], seed=recipe["seed"])

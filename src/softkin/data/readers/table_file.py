@@ -1,0 +1,178 @@
+"""Reader of a robot's own table: one CSV or Parquet file, one row per pose, columns of commands and of positions.
+
+The entry names the columns (a list, or a pattern), the number of coordinates per marker and how to split the rows.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from softkin.core.errors import SoftkinError
+from softkin.core.samples import EXTRAPOLATION, SUBSETS, TRAIN, VALIDATION, Array, Samples
+from softkin.data import split
+from softkin.data.readers import columns, delimited_text, parquet_columns
+from softkin.data.readers.delimited_text import DelimitedText
+from softkin.data.readers.parquet_columns import ParquetColumns
+
+logger = logging.getLogger("softkin")
+
+Table = DelimitedText | ParquetColumns
+
+#: Fewest rows that models can be fitted to (`train`) or scores computed from.
+MIN_ROWS = dict.fromkeys(SUBSETS, 2) | {TRAIN: 20}
+#: Split conformal prediction at 95 % needs 19 calibration rows.
+FEW_CALIBRATION_ROWS = 19
+#: No robot has larger numbers, and arithmetic on larger ones overflows.
+MAX_MAGNITUDE = 1e100
+#: A marker's range this many times that of the next narrower suggests that they are in different units: along an arm
+#: ranges grow gradually.
+SUSPICIOUS_GAP = 100.0
+_MAGIC = {
+    b"PK\x03\x04": "an Excel workbook or a zip file; mend: open it and save the sheet as 'CSV UTF-8'",
+    b"\xd0\xcf\x11\xe0": "an old Excel workbook; mend: open it and save the sheet as 'CSV UTF-8'",
+    b"\x1f\x8b": "compressed by gzip; mend: unpack it",
+    b"\x89HDF": "an HDF5 file; mend: export the table as CSV or Parquet",
+    b"MATLAB": "a MATLAB file; mend: write the table with writetable(T, 'robot.csv')",
+}
+
+
+def read(path: str | Path, *, dataset: str, source: Mapping[str, Any]) -> dict[str, Samples]:
+    """Samples per subset, rows in the order of the file, positions in its own unit; planar ones get a third
+    coordinate 0.
+
+    Raises:
+        SoftkinError: the file is not what its entry `source` says; names the file, row, column and mend.
+    """
+    about = f"dataset '{dataset}', file {source['file']}"
+    try:
+        table = open_table(path, source.get("delimiter"))
+        commands = columns.choose(table.names, source["commands"], "commands")
+        coordinates = columns.choose(table.names, source["positions"], "positions")
+        by = columns.choose(table.names, [source["split"]["column"]], "split") if "column" in source["split"] else []
+        chosen = [*commands, *coordinates]
+        names = [table.names[place] for place in chosen]
+        n_commands, dimensions = len(commands), source.get("dimensions", 3)
+        columns.check(names[:n_commands], names[n_commands:], dimensions, source)
+        values, others = table.read(chosen, [place for place in by if place not in chosen])
+        others += [values[:, chosen.index(place)] for place in by if place in chosen]
+        if not len(values):
+            raise SoftkinError("a header, but no row of numbers\n  mend: export the file again")
+        _check_magnitudes(names, values, table.place)
+        samples = Samples(values[:, :n_commands], _spatial(values[:, n_commands:], dimensions))
+        subset_of = split.split(source["split"], samples.commands, others[0] if others else None, table.place)
+        sizes = dict(zip(SUBSETS, np.bincount(subset_of, minlength=len(SUBSETS)).tolist(), strict=True))
+        _check_sizes(sizes)
+    except SoftkinError as error:
+        raise SoftkinError(f"{about}: {error}") from error
+    for remark in (
+        *_remarks_on_columns(names, values, n_commands, dimensions, source["position_unit"]),
+        *_remarks_on_sizes(sizes, split.wanted_shares(source["split"])),
+    ):
+        logger.warning("%s: %s", about, remark)
+    del values
+    return {
+        subset: Samples(samples.commands[rows], samples.positions[rows])
+        for place, subset in enumerate(SUBSETS)
+        if len(rows := np.flatnonzero(subset_of == place))
+    }
+
+
+def open_table(path: str | Path, delimiter: str | None = None) -> Table:
+    """The table in a CSV or Parquet file, told apart by their first bytes, not by name.
+
+    Raises:
+        SoftkinError: neither, or empty, or without a header.
+    """
+    with open(path, "rb") as file:
+        start = file.read(8)
+    for magic, what in _MAGIC.items():
+        if start.startswith(magic):
+            raise SoftkinError(f"this is {what}".replace("; mend", "\n  mend"))
+    if start.startswith(b"PAR1"):
+        return parquet_columns.open_parquet(Path(path))
+    return delimited_text.open_text(Path(path), delimiter)
+
+
+def _spatial(positions: Array, dimensions: int) -> Array:
+    """Positions with three coordinates per marker: a planar marker's third is 0."""
+    if dimensions == 3:
+        return positions
+    markers = positions.reshape(len(positions), -1, dimensions)
+    return np.pad(markers, ((0, 0), (0, 0), (0, 1))).reshape(len(positions), -1)
+
+
+def _check_magnitudes(names: Sequence[str], values: Array, place: Callable[[int], str]) -> None:
+    for name, column in zip(names, values.T, strict=True):
+        if np.abs(column).max() > MAX_MAGNITUDE:
+            row = int(np.argmax(np.abs(column)))
+            raise SoftkinError(
+                f"{place(row)}, column '{name}': too large a number: {column[row]:g}\n"
+                "  mend: correct the value or delete the row"
+            )
+
+
+def _check_sizes(sizes: Mapping[str, int]) -> None:
+    few = [
+        f"{subset} gets {size} of at least {MIN_ROWS[subset]}"
+        for subset, size in sizes.items()
+        if size < MIN_ROWS[subset]
+    ]
+    if few:
+        raise SoftkinError(
+            f"{sum(sizes.values())} rows are too few: {', '.join(few)}\n  mend: record more, best some hundred or more"
+        )
+
+
+def _remarks_on_sizes(sizes: Mapping[str, int], wanted: Mapping[str, float]) -> Iterator[str]:
+    n_rows = sum(sizes.values())
+    if sizes[VALIDATION] < FEW_CALIBRATION_ROWS:
+        yield (
+            f"validation has {sizes[VALIDATION]} rows: too few for a calibrated interval at 95 %\n"
+            f"  mend: record more rows, so that it has {FEW_CALIBRATION_ROWS} or more"
+        )
+    off = {subset: share for subset, share in wanted.items() if abs(sizes[subset] / n_rows - share) > 0.05}
+    if off:
+        shares = ", ".join(f"{subset} {sizes[subset] / n_rows:.0%} for {share:.0%}" for subset, share in off.items())
+        yield (
+            f"large groups of rows stay together, so subsets miss their share: {shares}\n"
+            f"  mend: record more distinct commands or groups, or another `{EXTRAPOLATION}_share` of `split`"
+        )
+
+
+def _remarks_on_columns(
+    names: Sequence[str], values: Array, n_commands: int, dimensions: int, position_unit: str
+) -> Iterator[str]:
+    seen: dict[int, str] = {}
+    for place, name in enumerate(names):
+        column = values[:, place]
+        if not np.ptp(column) > 0:
+            if place < n_commands:
+                yield f"command '{name}' is always {column[0]:g}: no use\n  mend: leave it out of `commands`"
+            continue
+        twin = seen.setdefault(hash(column.tobytes()), name)
+        if twin != name:
+            yield f"columns '{twin}' and '{name}' hold the same numbers\n  mend: leave one out, or export again"
+    units = {unit for name in names[n_commands:] if (unit := columns.unit_of(name))}
+    if units - {position_unit}:
+        yield (
+            f"the names of the columns say {', '.join(sorted(units))}, `position_unit` says {position_unit}\n"
+            "  mend: correct `position_unit`, or bring all columns to one unit"
+        )
+    sample = values[:: max(1, len(values) // 10_000), n_commands:]
+    ranges = np.subtract(*np.percentile(sample, [99, 1], axis=0)).reshape(-1, dimensions).max(axis=1)
+    moving = np.flatnonzero(ranges > 1e-9 * ranges.max(initial=0.0))
+    order = moving[np.argsort(ranges[moving])]
+    gaps = ranges[order[1:]] / ranges[order[:-1]]
+    if gaps.max(initial=0.0) > SUSPICIOUS_GAP:
+        place = int(gaps.argmax())
+        narrow, wide = (names[n_commands + dimensions * int(marker)] for marker in order[place : place + 2])
+        yield (
+            f"mixed units? the marker of '{wide}' ranges over {ranges[order[place + 1]]:g}, that of '{narrow}' over "
+            f"{ranges[order[place]]:g}, {gaps[place]:.0f} times less, and none in between\n"
+            "  mend: bring all markers to one unit; if the second is fixed to the base, leave it out"
+        )

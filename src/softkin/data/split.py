@@ -1,0 +1,198 @@
+"""Split a robot's own table into the four subsets, by a method that its entry names.
+
+A method that draws (`random`, `group`, `time`) first forms groups of rows that must stay together, then gives the outer
+groups, by standardised command norm, to `extrapolation`, and deals the others out at random: 80 % of their rows to
+`train`, 10 % to `validation`, 10 % to `test`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from softkin.core.errors import SoftkinError
+from softkin.core.samples import EXTRAPOLATION, SUBSETS, TEST, TRAIN, VALIDATION, Array
+
+Codes = NDArray[np.int64]
+
+INNER_SHARES = {TRAIN: 0.8, VALIDATION: 0.1, TEST: 0.1}
+EXTRAPOLATION_SHARE = 0.3
+BLOCKS = 50
+#: How a subset may be spelt in a file that names it, where the entry says nothing else.
+SPELLINGS = {subset: subset for subset in SUBSETS} | {"val": VALIDATION, "ext": EXTRAPOLATION}
+
+
+def has_standardised_norm(entry: Mapping[str, Any]) -> bool:
+    """Whether the norm by which a dataset's extrapolation lies outside is that of the commands standardised by `train`,
+    by its `entry` of config/datasets.yaml: so where softkin splits the table. Published data, and simulated ones in
+    their place, are split by the norm of the raw commands.
+    """
+    return "split" in entry
+
+
+def split(
+    options: Mapping[str, Any], commands: Array, column: NDArray[Any] | None, place: Callable[[int], str]
+) -> Codes:
+    """The subset of each row, as its index in `SUBSETS` (n_rows,).
+
+    `options` is the key `split` of the entry: `method`, and the options of that method. `column` holds the values of
+    the file's column that `options` names, text or numbers. `place` says of a row where it stands in the file.
+
+    Raises:
+        SoftkinError: a subset would stay empty, or a value of `column` is of no use; names row, column and mend.
+    """
+    if options["method"] == "column":
+        return _named(options, column, place)
+    groups = GROUPS[options["method"]](options, commands, column, place)
+    return _dealt(options, groups, standardised_norms(commands))
+
+
+def standardised_norms(commands: Array) -> Array:
+    """Norm of each row of commands (n_rows, n_commands) after each command has mean 0 and variance 1; a constant
+    command counts for nothing.
+    """
+    largest = np.abs(commands).max(axis=0)
+    scaled = commands / np.where(largest > 0, largest, 1.0)  # squares of very small numbers would vanish
+    spread = scaled.std(axis=0)
+    varies = (np.ptp(scaled, axis=0) > 0) & (spread > 0)
+    standardised = (scaled[:, varies] - scaled[:, varies].mean(axis=0)) / spread[varies]
+    return np.asarray(np.sqrt(np.einsum("ij,ij->i", standardised, standardised)))
+
+
+def wanted_shares(options: Mapping[str, Any]) -> dict[str, float]:
+    """Share of all rows that each subset should get; nothing is wanted where the file names the subsets."""
+    if options["method"] == "column":
+        return {}
+    outer = options.get("extrapolation_share", EXTRAPOLATION_SHARE)
+    return {subset: (1 - outer) * share for subset, share in INNER_SHARES.items()} | {EXTRAPOLATION: outer}
+
+
+def _named(options: Mapping[str, Any], column: NDArray[Any] | None, place: Callable[[int], str]) -> Codes:
+    assert column is not None
+    spellings = {str(name): subset for subset, name in options["names"].items()} if "names" in options else SPELLINGS
+    codes, values = _factorize(column)
+    texts = [str(value).strip() for value in values]
+    for code, text in enumerate(texts):
+        if text not in spellings:
+            first = int(np.argmax(codes == code))
+            raise SoftkinError(
+                f"{place(first)}, column '{options['column']}': '{text}' names no subset\n"
+                f"  mend: write one of {', '.join(spellings)}, or say in `names` of `split` how subsets are called"
+            )
+    missing = [subset for subset in SUBSETS if subset not in {spellings[text] for text in texts}]
+    if missing:
+        raise SoftkinError(
+            f"column '{options['column']}': no row of {' or '.join(missing)}\n"
+            "  mend: name rows of all four subsets there, or let softkin split: split: {method: random}"
+        )
+    return np.array([SUBSETS.index(spellings[text]) for text in texts])[codes]
+
+
+def _dealt(options: Mapping[str, Any], groups: Codes, norms: Array) -> Codes:
+    n_groups = int(groups.max()) + 1
+    if n_groups < len(SUBSETS):
+        raise SoftkinError(
+            f"{n_groups} {_KINDS[options['method']]}: four subsets need at least four\n"
+            "  mend: record more, or choose another `method` of `split`"
+        )
+    sizes = np.bincount(groups)
+    reach = np.zeros(n_groups)
+    np.maximum.at(reach, groups, norms)
+    order = np.argsort(reach, kind="stable")
+    # Between groups of equal reach there is no shell to cut; equal up to rounding, since the mean is subtracted.
+    cuts = 1 + np.flatnonzero(np.diff(reach[order]) > 1e-9 * reach.max())
+    cuts = cuts[cuts >= len(INNER_SHARES)]
+    if not cuts.size:
+        raise SoftkinError(
+            f"the extrapolation shell is empty: {n_groups} {_KINDS[options['method']]}, and no outer ones among them "
+            "that leave three or more inside, by the norm of their standardised commands\n  mend: record more distinct "
+            "commands, or mark the subsets in a column of the file: split: {method: column, column: ...}"
+        )
+    inside = np.cumsum(sizes[order])[cuts - 1]
+    outer = options.get("extrapolation_share", EXTRAPOLATION_SHARE)
+    cut = int(cuts[np.argmin(np.abs(inside - (1 - outer) * len(groups)))])
+
+    subset_of = np.full(n_groups, SUBSETS.index(EXTRAPOLATION))
+    drawn = np.random.default_rng(options.get("seed", 0)).permutation(order[:cut])
+    filled = np.cumsum(sizes[drawn])
+    first = _nearest(filled, INNER_SHARES[TRAIN], low=1, high=cut - 2)
+    second = _nearest(filled, INNER_SHARES[TRAIN] + INNER_SHARES[VALIDATION], low=first + 1, high=cut - 1)
+    for subset, part in ((TRAIN, drawn[:first]), (VALIDATION, drawn[first:second]), (TEST, drawn[second:])):
+        subset_of[part] = SUBSETS.index(subset)
+    return np.asarray(subset_of[groups])
+
+
+def _nearest(filled: Codes, share: float, *, low: int, high: int) -> int:
+    """How many groups, from `low` to `high`, fill the nearest to `share` of all rows."""
+    return low + int(np.argmin(np.abs(filled[low - 1 : high] - share * filled[-1])))
+
+
+def _same_command(
+    _options: Mapping[str, Any], commands: Array, _column: NDArray[Any] | None, _place: Callable[[int], str]
+) -> Codes:
+    import pandas as pd
+
+    frame = pd.DataFrame(commands)
+    return np.asarray(frame.groupby(list(frame.columns), sort=False).ngroup().to_numpy(np.int64))
+
+
+def _same_value(
+    options: Mapping[str, Any], _commands: Array, column: NDArray[Any] | None, place: Callable[[int], str]
+) -> Codes:
+    assert column is not None
+    codes, values = _factorize(column)
+    empty = [code for code, value in enumerate(values) if not str(value).strip()]
+    if empty:
+        first = int(np.argmax(codes == empty[0]))
+        raise SoftkinError(
+            f"{place(first)}, column '{options['column']}': no value, so the row's group is unknown\n"
+            "  mend: fill the cell or delete the row"
+        )
+    return codes
+
+
+def _same_stretch(
+    options: Mapping[str, Any], _commands: Array, column: NDArray[Any] | None, place: Callable[[int], str]
+) -> Codes:
+    """The recording in time order, cut into stretches of equal size; rows of one time stay together."""
+    assert column is not None
+    times = _times(options["column"], column, place)
+    ordered = np.sort(times)
+    rank = np.searchsorted(ordered, times, side="left")
+    stretches = rank * options.get("blocks", BLOCKS) // len(times)
+    return np.asarray(np.unique(stretches, return_inverse=True)[1])
+
+
+def _times(name: str, column: NDArray[Any], place: Callable[[int], str]) -> NDArray[Any]:
+    """Numbers or ISO 8601 dates as numbers that sort alike."""
+    import pandas as pd
+
+    if column.dtype != object:
+        return column
+    text = pd.Series(column).astype(str)
+    numbers = pd.to_numeric(text.str.replace(",", ".", regex=False), errors="coerce")
+    if numbers.notna().all():
+        return np.asarray(numbers.to_numpy(np.float64))
+    dates = pd.to_datetime(text, format="ISO8601", errors="coerce", utc=True)
+    if dates.notna().all():
+        return np.asarray(dates.astype("int64").to_numpy())
+    first = int(np.argmax((numbers.isna() & dates.isna()).to_numpy()))
+    raise SoftkinError(
+        f"{place(first)}, column '{name}': no time: '{column[first]}'\n"
+        "  mend: write all times as numbers (seconds), or all as dates like 2024-05-31T12:00:00.5"
+    )
+
+
+def _factorize(column: NDArray[Any]) -> tuple[Codes, list[Any]]:
+    import pandas as pd
+
+    codes, values = pd.factorize(column, use_na_sentinel=False)
+    return np.asarray(codes, dtype=np.int64), list(values)
+
+
+#: Method -> groups(options, commands, column, place): a number per row (n_rows,), the same for rows that stay together.
+GROUPS: dict[str, Callable[..., Codes]] = {"random": _same_command, "group": _same_value, "time": _same_stretch}
+_KINDS = {"random": "distinct commands", "group": "groups", "time": "stretches of time"}

@@ -1,0 +1,178 @@
+"""Score intervals: intervals and truth of one dataset -> its rows of interval_metrics.csv."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from softkin.core.bounds import read_bounds
+from softkin.core.errors import SoftkinError
+from softkin.core.files import replacing
+from softkin.core.metrics.interval import (
+    clopper_pearson,
+    coverage_band,
+    coverage_p_value,
+    covered,
+    geometric_size,
+    holm,
+    widths,
+    winkler_scores,
+)
+from softkin.core.runs import Run
+from softkin.core.samples import SUBSETS, TEST, Array, coordinate_columns, informative_coordinates
+from softkin.data.table import read_subset
+from softkin.evaluation.score_regions import region_rows
+from softkin.uncertainty.calibration_data import CalibrationData, QuantileCalibration
+from softkin.uncertainty.intervals.spec import MARGINAL, NO_GUARANTEE, IntervalMethod
+from softkin.uncertainty.regions.spec import RegionMethod
+from softkin.uncertainty.stored_outputs import INTERVAL_SUBSETS, StoredOutputs
+
+
+@dataclass(frozen=True, slots=True)
+class _Setting:
+    """What all rows of one interval have in common; the guarantee is that of this subset."""
+
+    true: Array
+    informative: NDArray[np.bool_]
+    n_calibration: int
+    level: float
+    method: IntervalMethod[Any]
+    guarantee: str
+
+
+def score_intervals(
+    table: str | Path,
+    *,
+    dataset: str,
+    methods: Mapping[str, IntervalMethod[Any]],
+    intervals: Mapping[str, str | Path],
+    regions: Mapping[str, RegionMethod],
+    outputs: StoredOutputs,
+    output: str | Path,
+) -> None:
+    """Write a row per subset, model, preset, method, coordinate and level.
+
+    `intervals` is method -> its intervals; `outputs` what they were made from. A joint region has one row, `joint`.
+
+    Raises:
+        SoftkinError: a symmetric interval of constant width has a Winkler score below twice its mean absolute error,
+            which cannot be: files of different runs were mixed.
+    """
+    everything = {subset: read_subset(table, subset).positions for subset in SUBSETS}
+    truth = {subset: everything[subset] for subset in INTERVAL_SUBSETS}
+    informative = informative_coordinates(outputs.train.positions)
+    rows: list[dict[str, Any]] = []
+    for name, method in methods.items():
+        stored = dict(list(pd.read_parquet(intervals[name]).groupby(["model", "preset"], sort=False)))
+        for run, data in outputs.of(method.calibrated_on):
+            scores = _crps(method, outputs, data, truth)
+            for subset, true in truth.items():
+                bounds = read_bounds(stored[run], subset, outputs.levels)
+                crossings = _crossings(method, outputs, run, subset, bounds)
+                guarantee = method.guarantee if subset == TEST else NO_GUARANTEE
+                n_calibration = 0 if method.guarantee == NO_GUARANTEE else len(data.truth)
+                for place, level in enumerate(outputs.levels):
+                    setting = _Setting(true, informative, n_calibration, level, method, guarantee)
+                    key = {"dataset": dataset, "subset": subset, "model": run[0], "preset": run[1]}
+                    key |= {"interval_method": name}
+                    rows += [key | row for row in _rows(setting, bounds[place], crossings[place], scores[subset])]
+    rows += [{"dataset": dataset, **row} for row in region_rows(outputs, everything, regions)]
+    with replacing(output) as temporary:
+        pd.DataFrame(rows).to_csv(temporary, index=False)
+
+
+def _crps(
+    method: IntervalMethod[Any],
+    outputs: StoredOutputs,
+    data: CalibrationData,
+    truth: Mapping[str, Array],
+) -> Mapping[str, Array]:
+    """(n_rows, n_coordinates) per subset; not a number for a method that gives no distribution."""
+    if method.crps is None:
+        return {subset: np.full(true.shape, np.nan) for subset, true in truth.items()}
+    return outputs.by_subset(method.crps(data, np.concatenate(list(truth.values()))))
+
+
+def _crossings(
+    method: IntervalMethod[Any], outputs: StoredOutputs, run: Run, subset: str, bounds: Array
+) -> NDArray[np.bool_]:
+    """Where predicted quantiles crossed before they were put in order, (n_levels, n_rows, n_coordinates)."""
+    if method.calibrated_on is not QuantileCalibration:
+        return np.zeros(bounds.shape[:-1], dtype=bool)
+    raw = read_bounds(outputs.quantiles[run], subset, outputs.levels)
+    return np.asarray(raw[..., 0] > raw[..., 1])
+
+
+def _rows(setting: _Setting, bounds: Array, crossings: NDArray[np.bool_], scores: Array) -> Iterator[dict[str, Any]]:
+    inside = covered(setting.true, bounds)
+    width = widths(bounds)
+    winkler = winkler_scores(setting.true, bounds, setting.level)
+    infinite = np.isinf(width)
+    if setting.method.has_constant_width and not infinite.any():
+        _check_winkler(setting, bounds, winkler)
+    n_rows, n_coordinates = setting.true.shape
+    bands = [_band(setting, int(count)) for count in inside.sum(axis=0)]
+    # Holm over the coordinates that move: a constant one says nothing, and must not weaken what the others say.
+    adjusted = np.full(n_coordinates, np.nan)
+    if setting.guarantee == MARGINAL:
+        p_values = np.array([band["coverage_p_value"] for band in bands])
+        adjusted[setting.informative] = holm(p_values[setting.informative])
+    common = {"confidence_level": setting.level, "n_calibration": setting.n_calibration, "n_rows": n_rows}
+
+    def averages(mask: Any) -> dict[str, Any]:
+        return {
+            "coverage": inside[:, mask].mean(),
+            "mean_width_mm": width[:, mask].mean(),
+            "winkler_mm": winkler[:, mask].mean(),
+            "crps_mm": scores[:, mask].mean(),
+            "infinite_share": infinite[:, mask].mean(),
+            "crossing_share": crossings[:, mask].mean(),
+            "guarantee": setting.guarantee,
+        }
+
+    for i, name in enumerate(coordinate_columns(n_coordinates // 3)):
+        yield {**common, "coordinate": name, **averages(i), **bands[i], "coverage_p_value_holm": adjusted[i]}
+    for name, mask in (("mean", np.ones(n_coordinates, bool)), ("mean_informative", setting.informative)):
+        yield {**common, "coordinate": name, **averages(mask)}
+    together = inside[:, setting.informative].all(axis=1)
+    low, high = clopper_pearson(int(together.sum()), n_rows)
+    yield {
+        **common,
+        "coordinate": "joint",
+        "coverage": together.mean(),
+        "coverage_low": low,
+        "coverage_high": high,
+        "size_mm": geometric_size(width[:, setting.informative]).mean(),
+        "infinite_share": infinite[:, setting.informative].any(axis=1).mean(),
+        "crossing_share": crossings[:, setting.informative].any(axis=1).mean(),
+        "guarantee": NO_GUARANTEE,
+    }
+
+
+def _check_winkler(setting: _Setting, bounds: Array, winkler: Array) -> None:
+    least = 2 * np.abs(setting.true - bounds.mean(axis=-1)).mean(axis=0)
+    if (winkler.mean(axis=0) < least * (1 - 1e-6)).any():
+        raise SoftkinError(
+            f"intervals by '{setting.method.name}': a mean Winkler score lies below twice the mean absolute error, "
+            "which no symmetric interval of constant width can have; mend: delete results/<dataset>/intervals and rerun"
+        )
+
+
+def _band(setting: _Setting, n_covered: int) -> dict[str, float]:
+    """With a guarantee, the band in which its coverage must lie and the p-value; else the coverage's own interval."""
+    n_rows = len(setting.true)
+    if setting.guarantee != MARGINAL or setting.method.rank is None:
+        low, high = clopper_pearson(n_covered, n_rows)
+        return {"coverage_low": low, "coverage_high": high, "coverage_p_value": np.nan}
+    rank = setting.method.rank(setting.n_calibration, setting.level)
+    if rank is None:  # infinite intervals cover everything
+        return {"coverage_low": 1.0, "coverage_high": 1.0, "coverage_p_value": 1.0}
+    low, high = coverage_band(n_rows, setting.n_calibration, rank)
+    p_value = coverage_p_value(n_covered, n_rows, setting.n_calibration, rank)
+    return {"coverage_low": low, "coverage_high": high, "coverage_p_value": p_value}

@@ -1,0 +1,84 @@
+"""Score: predictions and truth of one dataset -> its rows of the point-metric tables."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from softkin.core.files import read_json, replacing
+from softkin.core.metrics.point import euclidean_errors, mae_mm, point_metrics, rmse_mm
+from softkin.core.runs import Run
+from softkin.core.samples import EXTRAPOLATION, SUBSETS, TEST, TRAIN, coordinate_columns, informative_coordinates
+from softkin.data.table import read_subset
+
+#: Run -> paths of its predictions, fit record and prediction record.
+Runs = Mapping[Run, Mapping[str, str]]
+
+
+SPACE_COLUMNS = ["dataset", "subset", "model", "target_space", "is_chosen", "shell_mae_mm", "rmse_mm", "mae_mm"]
+
+
+def score(table: str | Path, *, dataset: str, runs: Runs, point: str | Path, markers: str | Path) -> None:
+    """Write `point` (a row per subset, model, preset) and `markers` (a row per subset, model, preset, marker)."""
+    truth = {subset: read_subset(table, subset).positions for subset in SUBSETS}
+    informative = informative_coordinates(truth[TRAIN])
+    point_rows: list[dict[str, Any]] = []
+    marker_rows: list[dict[str, Any]] = []
+    for (model, preset), files in runs.items():
+        predictions = pd.read_parquet(files["predictions"])
+        seconds = {
+            "fit_seconds": read_json(files["fit"])["fit_seconds"],
+            "predict_us_per_row": read_json(files["predict"])["predict_us_per_row"],
+        }
+        for subset, true in truth.items():
+            columns = coordinate_columns(true.shape[1] // 3)
+            predicted = predictions.loc[predictions["subset"] == subset, columns].to_numpy()
+            key = {"dataset": dataset, "subset": subset, "model": model, "preset": preset}
+            point_rows.append(key | point_metrics(true, predicted, informative) | seconds)
+            errors = euclidean_errors(true, predicted)
+            means, p95s = errors.mean(axis=0), np.percentile(errors, 95, axis=0)
+            marker_rows += [
+                key | {"marker": i + 1, "euclidean_mean_mm": mean, "euclidean_p95_mm": p95}
+                for i, (mean, p95) in enumerate(zip(means, p95s, strict=True))
+            ]
+    for rows, path in ((point_rows, point), (marker_rows, markers)):
+        with replacing(path) as temporary:
+            pd.DataFrame(rows).to_csv(temporary, index=False)
+
+
+def score_spaces(
+    table: str | Path,
+    *,
+    dataset: str,
+    parameters: Mapping[str, str | Path],
+    chosen: Mapping[str, str | Path],
+    others: str | Path | None,
+    output: str | Path,
+) -> None:
+    """Write `output` (CSV): of each model in the target space that its search by outer shells chose, and in the other,
+    shell_mae_mm, and RMSE and MAE on test and extrapolation as in the point metrics.
+
+    `parameters` and `chosen` are model -> file of what the search found, of the predictions of what it chose; `others`
+    are those of `refit_spaces`. Without any, there are no rows.
+    """
+    truth = {subset: read_subset(table, subset).positions for subset in (TEST, EXTRAPOLATION)}
+    other_space = pd.DataFrame(columns=["model"]) if others is None else pd.read_parquet(others)
+    rows: list[dict[str, Any]] = []
+    for model, path in parameters.items():
+        found, other = read_json(path), other_space[other_space["model"] == model]
+        if other.empty:
+            continue
+        for about, predictions in ((found, pd.read_parquet(chosen[model])), (found["other_space"], other)):
+            key = {"dataset": dataset, "model": model, "target_space": about["target_space"]}
+            key |= {"is_chosen": about is found, "shell_mae_mm": about["shell_mae_mm"]}
+            for subset, true in truth.items():
+                columns = coordinate_columns(true.shape[1] // 3)
+                predicted = predictions.loc[predictions["subset"] == subset, columns].to_numpy(np.float64)
+                errors = {"rmse_mm": rmse_mm(true, predicted), "mae_mm": mae_mm(true, predicted)}
+                rows.append(key | {"subset": subset} | errors)
+    with replacing(output) as temporary:
+        pd.DataFrame(rows, columns=SPACE_COLUMNS).to_csv(temporary, index=False)

@@ -1,0 +1,133 @@
+"""Joint regions and alarms: residuals of every model -> coverage and size, and the rate of false alarms."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from softkin.core.files import replacing
+from softkin.core.metrics.interval import clopper_pearson, coverage_band, coverage_p_value
+from softkin.core.runs import Run
+from softkin.core.samples import TEST, TRAIN, VALIDATION, Array, informative_coordinates
+from softkin.uncertainty.conformal import conformal_rank, error_scale, joint_scores, p_values
+from softkin.uncertainty.intervals.spec import NO_GUARANTEE
+from softkin.uncertainty.regions.spec import RegionMethod
+from softkin.uncertainty.stored_outputs import INTERVAL_SUBSETS, StoredOutputs, predicted_rows
+
+#: How far (mm) the whole robot is moved away to see whether an alarm is raised; 0 gives the false alarms.
+DISPLACEMENTS_MM = (0.0, 1.0, 2.0, 5.0, 10.0)
+#: What a region promises of the joint coverage.
+JOINT, AT_LEAST = "joint", "joint, at least"
+
+
+def moving_residuals(outputs: StoredOutputs, truth: Mapping[str, Array]) -> Iterator[tuple[Run, dict[str, Array]]]:
+    """(model, preset) and, per subset, truth minus prediction (n_rows, n_moving) in mm of its moving coordinates."""
+    moving = informative_coordinates(truth[TRAIN])
+    for run, stored in outputs.predictions.items():
+        yield run, {subset: (true - predicted_rows(stored, [subset]))[:, moving] for subset, true in truth.items()}
+
+
+def region_rows(
+    outputs: StoredOutputs, truth: Mapping[str, Array], methods: Mapping[str, RegionMethod]
+) -> Iterator[dict[str, Any]]:
+    """A row of interval_metrics.csv per model, preset, kind of region, level and subset; `truth` of all subsets."""
+    markers = _markers(truth)
+    for (model, preset), residuals in moving_residuals(outputs, truth):
+        for name, method in methods.items():
+            for level in outputs.levels:
+                for row in _coverages(method, residuals, markers, level):
+                    yield {"model": model, "preset": preset, "interval_method": name, **row}
+
+
+def score_alarms(
+    outputs: StoredOutputs, truth: Mapping[str, Array], *, dataset: str, seed: int, output: str | Path
+) -> None:
+    """Write the share of rows that their p-value calls anomalous, by level and displacement (CSV)."""
+    rows = []
+    for (model, preset), residuals in moving_residuals(outputs, truth):
+        for level in outputs.levels:
+            rates = alarm_rates(residuals, _markers(truth), level, seed)
+            rows += [{"dataset": dataset, "model": model, "preset": preset, **row} for row in rates]
+    with replacing(output) as temporary:
+        pd.DataFrame(rows).to_csv(temporary, index=False)
+
+
+def _markers(truth: Mapping[str, Array]) -> NDArray[np.intp]:
+    """Whose each moving coordinate is."""
+    return np.flatnonzero(informative_coordinates(truth[TRAIN])) // 3
+
+
+def _coverages(
+    method: RegionMethod, residuals: Mapping[str, Array], markers: NDArray[np.intp], level: float
+) -> Iterator[dict[str, Any]]:
+    region = method.region(residuals[TRAIN], residuals[VALIDATION], markers, level)
+    n_calibration = len(residuals[VALIDATION])
+    rank = conformal_rank(n_calibration, level)
+    for subset in INTERVAL_SUBSETS:
+        inside = region.covers(residuals[subset])
+        n_rows, n_covered = len(inside), int(inside.sum())
+        low, high = clopper_pearson(n_covered, n_rows)
+        p_value = float("nan")
+        if subset == TEST and method.is_exact and rank is not None:
+            low, high = coverage_band(n_rows, n_calibration, rank)
+            p_value = coverage_p_value(n_covered, n_rows, n_calibration, rank)
+        yield {
+            "subset": subset,
+            "confidence_level": level,
+            "n_calibration": n_calibration,
+            "n_rows": n_rows,
+            "coordinate": "joint",
+            "coverage": n_covered / n_rows,
+            "infinite_share": float(np.isinf(region.size_mm)),
+            "crossing_share": 0.0,
+            "guarantee": NO_GUARANTEE if subset != TEST else JOINT if method.is_exact else AT_LEAST,
+            "coverage_low": low,
+            "coverage_high": high,
+            "coverage_p_value": p_value,
+            "size_mm": region.size_mm,
+        }
+
+
+def alarm_rates(
+    residuals: Mapping[str, Array], markers: NDArray[np.intp], level: float, seed: int
+) -> Iterator[dict[str, Any]]:
+    """Share of rows whose p-value is at most alpha = 1 - level: one coordinate at a time (averaged), and jointly.
+
+    Every marker is moved by a displacement in one random direction per row. On `test` without displacement the share
+    must be about alpha, at most: these are the false alarms.
+    """
+    alpha = round(1 - level, 12)
+    calibration = residuals[VALIDATION]
+    scale = error_scale(np.abs(residuals[TRAIN]))
+    for subset in INTERVAL_SUBSETS:
+        direction = np.random.default_rng(seed).standard_normal((len(residuals[subset]), 3))
+        direction /= np.linalg.norm(direction, axis=1, keepdims=True)
+        for displacement in DISPLACEMENTS_MM:
+            axes = _axes(markers)
+            moved = residuals[subset] + displacement * direction[:, axes]
+            single = p_values(np.abs(calibration), np.abs(moved)) <= alpha
+            scores = (joint_scores(rows, scale) for rows in (calibration, moved))
+            joint = p_values(*scores) <= alpha
+            low, high = clopper_pearson(int(joint.sum()), len(joint))
+            yield {
+                "subset": subset,
+                "alpha": alpha,
+                "displacement_mm": displacement,
+                "n_rows": len(joint),
+                "coordinate_alarm_rate": single.mean(),
+                "joint_alarm_rate": joint.mean(),
+                "joint_low": low,
+                "joint_high": high,
+            }
+
+
+def _axes(markers: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Which direction (0, 1, 2) each coordinate has within its marker, counting those that move."""
+    starts = np.r_[True, markers[1:] != markers[:-1]]
+    place = np.arange(len(markers))
+    return place - np.maximum.accumulate(np.where(starts, place, 0))

@@ -1,0 +1,35 @@
+"""One scikit-learn gradient boosting per quantile."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, Self
+
+import numpy as np
+from sklearn.base import BaseEstimator, RegressorMixin
+from sklearn.ensemble import GradientBoostingRegressor
+
+from softkin.core.samples import Array
+
+
+class BoostedQuantiles(RegressorMixin, BaseEstimator):  # type: ignore[misc]
+    """Predicts (n_rows, n_quantiles); neighbouring quantiles may cross, since they know nothing of each other."""
+
+    def __init__(self, quantiles: Sequence[float], params: Mapping[str, Any], random_state: int = 0) -> None:
+        self.quantiles = quantiles
+        self.params = params
+        self.random_state = random_state
+
+    def fit(self, X: Array, y: Array) -> Self:
+        """Fit on commands X (n_rows, n_commands) and one coordinate y (n_rows,)."""
+        self.models_ = [
+            GradientBoostingRegressor(
+                loss="quantile", alpha=quantile, **self.params, random_state=self.random_state
+            ).fit(X, y)
+            for quantile in self.quantiles
+        ]
+        return self
+
+    def predict(self, X: Array) -> Array:
+        """Predicted quantiles (n_rows, n_quantiles)."""
+        return np.column_stack([model.predict(X) for model in self.models_])

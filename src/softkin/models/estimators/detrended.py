@@ -1,0 +1,71 @@
+"""A polynomial, and a regressor on its residuals: outside the rows it saw, a tree ends at a trend, not a constant."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Self
+
+import numpy as np
+from sklearn.base import BaseEstimator, RegressorMixin, clone
+from sklearn.linear_model import LinearRegression
+from sklearn.pipeline import make_pipeline
+from sklearn.preprocessing import PolynomialFeatures
+
+from softkin.core.errors import SoftkinError
+from softkin.core.samples import Array, Params, Samples
+from softkin.models.spec import TRENDS
+
+
+class Detrended(RegressorMixin, BaseEstimator):  # type: ignore[misc]
+    """A polynomial of `degree` by least squares, and `regressor` on its residuals, standardised.
+
+    Targets may be one (n_rows,) or many (n_rows, n_targets); a regressor of one target may predict several quantiles of
+    it (n_rows, n_quantiles).
+    """
+
+    def __init__(self, regressor: Any, degree: int) -> None:
+        self.regressor = regressor
+        self.degree = degree
+
+    def fit(self, X: Array, y: Array) -> Self:
+        """Fit on commands X (n_rows, n_commands) and targets y."""
+        self.trend_ = make_pipeline(PolynomialFeatures(self.degree, include_bias=False), LinearRegression()).fit(X, y)
+        residuals = y - self.trend_.predict(X)
+        spread = residuals.std(axis=0)
+        self.scale_ = np.where(spread > 0, spread, 1.0)
+        self.regressor_ = clone(self.regressor).fit(X, residuals / self.scale_)
+        return self
+
+    def predict(self, X: Array) -> Array:
+        """Targets, or their quantiles."""
+        trend, rest = self.trend_.predict(X), np.asarray(self.regressor_.predict(X)) * self.scale_
+        return np.asarray(trend[:, None] + rest if rest.ndim > trend.ndim else trend + rest)
+
+    def residuals(self, samples: Samples) -> Samples:
+        """What `regressor` sees of samples whose positions are targets (n_rows, n_targets)."""
+        trend = self.trend_.predict(samples.commands).reshape(samples.positions.shape)
+        return Samples(samples.commands, (samples.positions - trend) / self.scale_)
+
+
+def detrended(build: Callable[[Params], Any], params: Params) -> Any:
+    """The regressor that `build` makes of `params` without their `trend` (one of `TRENDS`, default none), on what that
+    trend leaves.
+
+    Raises:
+        SoftkinError: there is no such trend.
+    """
+    rest = dict(params)
+    trend = rest.pop("trend", TRENDS[0])
+    if trend not in TRENDS:
+        raise SoftkinError(f"trend '{trend}' is none of {', '.join(TRENDS)}")
+    degree = TRENDS.index(trend)
+    return Detrended(build(rest), degree) if degree else build(rest)
+
+
+def spread_around(
+    spread: Callable[[Any, Samples, Array], Array], regressor: Any, train: Samples, commands: Array
+) -> Array:
+    """The `spread` of a regressor that may be `Detrended`: the trend is taken as known."""
+    if not isinstance(regressor, Detrended):
+        return spread(regressor, train, commands)
+    return np.asarray(spread(regressor.regressor_, regressor.residuals(train), commands) * regressor.scale_)

@@ -1,0 +1,36 @@
+"""A regressor commands -> positions whose targets live in a space of their own."""
+
+from __future__ import annotations
+
+from typing import Any, Self
+
+import numpy as np
+from sklearn.base import BaseEstimator, RegressorMixin, clone
+
+from softkin.core.samples import Array
+
+
+class KinematicRegressor(RegressorMixin, BaseEstimator):  # type: ignore[misc]
+    """Fits `regressor` to positions as `transformer` sees them, and maps its predictions back to mm.
+
+    scikit-learn's TransformedTargetRegressor but for one thing: the transformer may learn from the commands too.
+    """
+
+    def __init__(self, regressor: Any, transformer: Any) -> None:
+        self.regressor = regressor
+        self.transformer = transformer
+
+    def fit(self, X: Array, y: Array) -> Self:
+        """Fit on commands X (n_rows, n_commands) and positions y (n_rows, n_coordinates) in mm."""
+        self.transformer_ = clone(self.transformer).fit(y, X)
+        targets = self.transformer_.transform(y)
+        self.regressor_ = clone(self.regressor).fit(X, targets[:, 0] if targets.shape[1] == 1 else targets)
+        return self
+
+    def predict(self, X: Array) -> Array:
+        """Positions (n_rows, n_coordinates) in mm."""
+        return np.asarray(self.transformer_.inverse_transform(self.targets(X)))
+
+    def targets(self, X: Array) -> Array:
+        """What the regressor itself predicts (n_rows, n_targets), standardised."""
+        return np.asarray(self.regressor_.predict(X)).reshape(len(X), -1)

@@ -1,0 +1,45 @@
+"""Gradient boosting of the pinball loss (scikit-learn), one ensemble per quantile: the paper's QR."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from softkin.core.samples import Params
+from softkin.models.quantile.spec import QuantileSpec
+from softkin.models.spec import TRENDS
+
+if TYPE_CHECKING:
+    from optuna.trial import BaseTrial
+
+
+def build(params: Params, quantiles: Sequence[float], seed: int, threads: int) -> Any:
+    """One GradientBoostingRegressor(loss="quantile", **params) per quantile, on what is left of a `trend`."""
+    from softkin.models.estimators.boosted_quantiles import BoostedQuantiles
+    from softkin.models.estimators.detrended import detrended
+
+    return detrended(lambda rest: BoostedQuantiles(tuple(quantiles), rest, random_state=seed), params)
+
+
+def search_space(trial: BaseTrial) -> Params:
+    """At most 150 trees: two ensembles per coordinate and level make it the dearest fit of all."""
+    return {
+        "trend": trial.suggest_categorical("trend", TRENDS),
+        "n_estimators": trial.suggest_int("n_estimators", 50, 150, step=25),
+        "learning_rate": trial.suggest_float("learning_rate", 0.03, 0.3, log=True),
+        "max_depth": trial.suggest_int("max_depth", 2, 5),
+        "subsample": trial.suggest_float("subsample", 0.3, 0.8),
+        "min_samples_leaf": trial.suggest_int("min_samples_leaf", 1, 20, log=True),
+    }
+
+
+_START = {"n_estimators": 100, "learning_rate": 0.1, "max_depth": 3, "subsample": 0.8, "min_samples_leaf": 1}
+
+SPEC = QuantileSpec(
+    name="gb",
+    title="Gradient boosting",
+    build=build,
+    paper_params={},
+    search_space=search_space,
+    first_trials=tuple({"trend": trend, **_START} for trend in TRENDS),
+)

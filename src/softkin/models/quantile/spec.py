@@ -1,0 +1,28 @@
+"""What a quantile regressor is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from softkin.core.samples import Params
+
+if TYPE_CHECKING:
+    from optuna.trial import BaseTrial
+
+
+@dataclass(frozen=True, slots=True)
+class QuantileSpec:
+    """One quantile regressor.
+
+    `build(params, quantiles, seed, threads)` returns an unfitted regressor of one coordinate, in standardised space,
+    that predicts (n_rows, n_quantiles). `paper_params`, `search_space` and `first_trials` are as for a point model.
+    """
+
+    name: str
+    title: str
+    build: Callable[[Params, Sequence[float], int, int], Any]
+    paper_params: Params
+    search_space: Callable[[BaseTrial], Params]
+    first_trials: tuple[Mapping[str, Any], ...]

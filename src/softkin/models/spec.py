@@ -1,0 +1,44 @@
+"""What a point model of the pool is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from softkin.core.runs import PAPER, Run
+from softkin.core.samples import Array, Params, Samples
+
+if TYPE_CHECKING:
+    from optuna.trial import BaseTrial
+
+#: The run that the paper puts its intervals around.
+PAPERS_RUN = Run("gb", PAPER)
+#: The trends on whose residuals a model that extrapolates as a constant may be fitted; the place is the degree.
+TRENDS = ("none", "linear", "quadratic")
+
+
+@dataclass(frozen=True, slots=True)
+class ModelSpec:
+    """One point model of the pool.
+
+    `build(params, seed, threads)` returns an unfitted multi-output scikit-learn regressor that works in
+    standardised space. `paper_params` are the fixed settings of the paper's rows, or scikit-learn's own for a model
+    that the paper does not have. `search_space(trial)` draws the parameters of a searched model; `first_trials` are
+    drawn before the sampler draws on its own. `spread(regressor, train, commands)`, where the model has one, estimates
+    its own uncertainty: (n_rows, n_targets), everything standardised; `is_predictive` says that this is the standard
+    deviation of a whole predictive distribution. `is_cheap` admits it to the interval methods that refit (CV+,
+    jackknife+-after-bootstrap). `is_robust` says that a few gross errors in `train` cannot move its fit.
+    """
+
+    name: str
+    title: str
+    family: str
+    build: Callable[[Params, int, int], Any]
+    paper_params: Params
+    search_space: Callable[[BaseTrial], Params]
+    first_trials: tuple[Mapping[str, Any], ...]
+    spread: Callable[[Any, Samples, Array], Array] | None = None
+    is_predictive: bool = False
+    is_cheap: bool = False
+    is_robust: bool = False

@@ -1,0 +1,17 @@
+"""Positions as they are: the paper's target space."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from softkin.models.estimators.position_scaler import PositionScaler
+from softkin.models.target_spaces.spec import TargetSpace
+
+
+def transformer(skip_constant: bool, base: Mapping[str, Any] | None) -> PositionScaler:
+    """Positions standardised."""
+    return PositionScaler(skip_constant)
+
+
+SPACE = TargetSpace("cartesian", "Cartesian", transformer)

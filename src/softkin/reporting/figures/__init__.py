@@ -1,0 +1,50 @@
+"""Figures: one file a kind (frame + plot), one line here. In the order in which a reader wants them."""
+
+from __future__ import annotations
+
+from softkin.reporting.figures import (
+    calibration,
+    conditional_coverage,
+    distance,
+    distribution,
+    extrapolation,
+    importance,
+    intervals,
+    position_curves,
+    published,
+    ranking,
+    residuals,
+    robot,
+    target_spaces,
+    tuning_history,
+    width,
+    workspace,
+    workspace_predictions,
+)
+from softkin.reporting.figures.spec import CampaignResults, DatasetResults, FigureSpec
+
+#: Of one dataset.
+FIGURES: dict[str, FigureSpec[DatasetResults]] = {
+    "ranking": ranking.FIGURE,
+    "robot": robot.FIGURE,
+    "believed": workspace_predictions.FIGURE,
+    "position_curves": position_curves.FIGURE,
+    "distribution": distribution.FIGURE,
+    "distance": distance.FIGURE,
+    "workspace": workspace.FIGURE,
+    "residuals": residuals.FIGURE,
+    "intervals_paper": intervals.PAPER_RECIPE,
+    "intervals_chosen": intervals.CHOSEN_MODEL,
+    "calibration": calibration.FIGURE,
+    "width": width.FIGURE,
+    "conditional_coverage": conditional_coverage.FIGURE,
+    "outside": extrapolation.FIGURE,
+    "target_spaces": target_spaces.FIGURE,
+    "tuning_history": tuning_history.FIGURE,
+    "importance": importance.FIGURE,
+}
+
+#: Across datasets.
+CAMPAIGN_FIGURES: dict[str, FigureSpec[CampaignResults]] = {
+    "published": published.FIGURE,
+}

@@ -1,0 +1,104 @@
+"""The paper's Figure 6: intervals of four methods around one coordinate, rows of `test` sorted by true position."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+
+from softkin.core.runs import Run
+from softkin.core.samples import TEST
+from softkin.data.table import read_subset
+from softkin.models.spec import PAPERS_RUN
+from softkin.reporting.figures.reading import bounds, candidates, shown_coordinate
+from softkin.reporting.figures.reading import chosen as chosen_run
+from softkin.reporting.figures.spec import DatasetResults, FigureSpec
+from softkin.reporting.figures.style import BLUE, GREY, PAGE, SKY, VERMILION, heading, legend_below, panels
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+#: The paper's four.
+METHODS = ("qr", "cqr", "scp_mapie", "scp_crepes")
+
+
+def frame(results: DatasetResults, *, chosen: bool) -> pd.DataFrame:
+    """Columns model, preset, interval_method, title, coordinate, confidence_level, true, lower, upper (mm), covered.
+
+    A row per row of `test` and method that was run, sorted by true position, of the coordinate that moves furthest on
+    `train`. `chosen`: around the chosen model instead of the paper's; QR and CQR, which have learners of their own,
+    around the paper's learner in the preset of the chosen model.
+    """
+    coordinate, name = shown_coordinate(results)
+    true = read_subset(results.table, TEST).positions[:, coordinate]
+    order = np.argsort(true, kind="stable")
+    level = float(candidates(results)["confidence_level"].iloc[0])
+    best = chosen_run(results)
+    if chosen and best is None:
+        return pd.DataFrame()
+    model, preset = best.run if chosen and best else PAPERS_RUN
+    parts = []
+    for method in (method for method in METHODS if method in results.intervals):
+        around = PAPERS_RUN.model if results.has_own_regressors[method] else model
+        found = bounds(results, method, Run(around, preset), level)
+        if found is None:
+            continue
+        lower, upper = found[:, coordinate].T
+        part = pd.DataFrame({"true": true, "lower": lower, "upper": upper}).iloc[order]
+        part["covered"] = (part["lower"] <= part["true"]) & (part["true"] <= part["upper"])
+        key = {"model": around, "preset": preset, "interval_method": method, "title": results.method_titles[method]}
+        parts.append(part.assign(**key, coordinate=name, confidence_level=level))
+    return pd.concat(parts, ignore_index=True) if parts else pd.DataFrame()
+
+
+def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
+    """Above, positions and intervals as the paper shows them; below, the same from the true position's view."""
+    groups = list(frame.groupby("interval_method", sort=False))
+    figure, axes = panels(2, len(groups), PAGE, 4.8, sharex=True, sharey="row")
+    for column, (_, rows) in enumerate(groups):
+        first = rows.iloc[0]
+        _draw(axes[0][column], rows, 0.0)
+        _draw(axes[1][column], rows, rows["true"].to_numpy())
+        width = (rows["upper"] - rows["lower"]).mean()
+        axes[0][column].set_title(
+            f"{first['title']}\n{first['model']} {first['preset']}\n"
+            f"covers {rows['covered'].mean():.1%}\nmean width {width:.3g} mm",
+            fontsize=8,
+        )
+        axes[1][column].axhline(0.0, color=GREY, linewidth=0.4)
+        axes[1][column].set_xlabel("row of test, sorted")
+    coordinate, level = frame["coordinate"].iloc[0], frame["confidence_level"].iloc[0]
+    axes[0][0].set_ylabel(f"{coordinate} (mm)")
+    axes[1][0].set_ylabel("distance from truth (mm)")
+    legend_below(figure, axes[0][0].get_legend_handles_labels()[0], 3)
+    heading(figure, results, f"{level:.0%} intervals of {coordinate}")
+    return figure
+
+
+def _draw(axes: Axes, rows: pd.DataFrame, origin: object) -> None:
+    place = np.arange(len(rows))
+    lower, upper, true = (rows[name].to_numpy() - origin for name in ("lower", "upper", "true"))
+    missed = ~rows["covered"].to_numpy()
+    axes.fill_between(place, lower, upper, step="mid", color=SKY, alpha=0.6, linewidth=0, label="interval")
+    axes.plot(place, true, color=BLUE, linewidth=1.0, label="true position")
+    axes.plot(place[missed], true[missed], ".", color=VERMILION, markersize=4, label="true position, missed")
+
+
+PAPER_RECIPE = FigureSpec(
+    "intervals_paper",
+    "Intervals around the paper's model",
+    "Intervals of the paper's four methods around gradient boosting with the paper's settings, on test, sorted by true "
+    "position (the paper's Figure 6).",
+    partial(frame, chosen=False),
+    plot,
+)
+CHOSEN_MODEL = FigureSpec(
+    "intervals_chosen",
+    "Intervals around the chosen model",
+    "The same methods around the chosen model; QR and CQR have learners of their own.",
+    partial(frame, chosen=True),
+    plot,
+)

@@ -1,0 +1,77 @@
+"""What several figures read of a dataset's results."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+
+from softkin.core.bounds import read_bounds
+from softkin.core.metrics.point import euclidean_errors
+from softkin.core.runs import Run
+from softkin.core.samples import TEST, TRAIN, Array, coordinate_columns, informative_coordinates
+from softkin.data.table import read_subset
+from softkin.reporting.figures.spec import DatasetResults
+
+
+@dataclass(frozen=True, slots=True)
+class Chosen:
+    """The chosen model and preset, and the best method around it at the level at which methods were compared."""
+
+    model: str
+    preset: str
+    interval_method: str
+    confidence_level: float
+
+    @property
+    def run(self) -> Run:
+        """The run that this interval is around."""
+        return Run(self.model, self.preset)
+
+
+def chosen(results: DatasetResults) -> Chosen | None:
+    """None when only methods with quantile regressors of their own were run."""
+    choice = candidates(results)
+    around = choice[~choice["has_own_regressors"]]
+    if around.empty:
+        return None
+    best = around.iloc[0]
+    return Chosen(best["model"], best["preset"], best["interval_method"], float(best["confidence_level"]))
+
+
+def candidates(results: DatasetResults) -> pd.DataFrame:
+    """interval_choice.csv, best first, and `has_own_regressors`."""
+    choice = pd.read_csv(results.choice)
+    return choice.assign(
+        has_own_regressors=choice["interval_method"].map(dict(results.has_own_regressors)).astype(bool)
+    )
+
+
+def shown_coordinate(results: DatasetResults) -> tuple[int, str]:
+    """Number and name of the coordinate that moves furthest on `train`."""
+    positions = read_subset(results.table, TRAIN).positions
+    coordinate = int(np.argmax(np.ptp(positions, axis=0)))
+    return coordinate, coordinate_columns(positions.shape[1] // 3)[coordinate]
+
+
+def predicted(results: DatasetResults, run: Run, subset: str, columns: list[str]) -> Array:
+    """What the run predicts of these coordinates on a subset, (n_rows, n_columns); mm."""
+    frame = pd.read_parquet(results.predictions[run], columns=columns, filters=[("subset", "==", subset)])
+    return np.ascontiguousarray(frame.to_numpy(np.float64))
+
+
+def bounds(results: DatasetResults, method: str, run: Run, confidence_level: float, subset: str = TEST) -> Array | None:
+    """Intervals on a subset, (n_rows, n_coordinates, 2) in mm; None when the method has none around this run."""
+    mine = [("model", "==", run[0]), ("preset", "==", run[1]), ("subset", "==", subset)]
+    stored = pd.read_parquet(results.intervals[method], filters=mine)
+    return None if stored.empty else np.asarray(read_bounds(stored, subset, [confidence_level])[0])
+
+
+def mean_marker_errors(results: DatasetResults, run: Run, subset: str) -> Array:
+    """Distance between true and predicted marker, (n_rows,), averaged over the markers that move; mm."""
+    moving = informative_coordinates(read_subset(results.table, TRAIN).positions)
+    true = read_subset(results.table, subset).positions
+    columns = coordinate_columns(true.shape[1] // 3)
+    errors = euclidean_errors(true, predicted(results, run, subset, columns))
+    return np.asarray(errors[:, moving.reshape(-1, 3).any(axis=1)].mean(axis=1))

@@ -1,0 +1,115 @@
+"""Does an interval grow where the prediction is bad? Width against error, per method."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+
+from softkin.core.runs import Run
+from softkin.core.samples import TEST
+from softkin.data.table import read_subset
+from softkin.reporting.figures.reading import bounds, candidates, shown_coordinate
+from softkin.reporting.figures.spec import DatasetResults, FigureSpec
+from softkin.reporting.figures.style import (
+    BLACK,
+    BLUE,
+    GREY,
+    LEAST_MM,
+    PAGE,
+    VERMILION,
+    heading,
+    legend_below,
+    logarithmic,
+    panels,
+    sample,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+N_METHODS = 4
+N_PARTS = 5
+
+
+def frame(results: DatasetResults) -> pd.DataFrame:
+    """Columns model, preset, interval_method, title, coordinate, confidence_level, half_width_mm, error_mm, covered.
+
+    A row per row of `test`, of the coordinate that moves furthest on `train`, for the chosen interval and the three
+    next best candidates whose width is not the same on every row; rows without a finite interval are left out.
+    `error_mm` is the distance of the true position from the interval's middle.
+    """
+    coordinate, name = shown_coordinate(results)
+    true = read_subset(results.table, TEST).positions[:, coordinate]
+    parts: list[pd.DataFrame] = []
+    for row in candidates(results).itertuples():
+        found = bounds(results, row.interval_method, Run(row.model, row.preset), row.confidence_level)
+        assert found is not None  # a candidate has intervals
+        lower, upper = found[:, coordinate].T
+        part = pd.DataFrame({"half_width_mm": (upper - lower) / 2, "error_mm": np.abs(true - (lower + upper) / 2)})
+        part["covered"] = (lower <= true) & (true <= upper)
+        part = part[np.isfinite(part["half_width_mm"])]
+        if part.empty or (parts and _is_constant(part)):
+            continue
+        key = {"model": row.model, "preset": row.preset, "interval_method": row.interval_method}
+        title = f"{results.method_titles[row.interval_method]}\n{row.model} {row.preset}"
+        parts.append(part.assign(**key, title=title, coordinate=name, confidence_level=row.confidence_level))
+        if len(parts) == N_METHODS:
+            break
+    return pd.concat(parts, ignore_index=True) if parts else pd.DataFrame()
+
+
+def _is_constant(part: pd.DataFrame) -> bool:
+    return bool(np.ptp(part["half_width_mm"]) <= 1e-6 * part["half_width_mm"].max())
+
+
+def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
+    """A panel for each method, log-log."""
+    frame = frame.assign(**frame[["half_width_mm", "error_mm"]].clip(lower=LEAST_MM))
+    groups = list(frame.groupby("title", sort=False))
+    figure, axes = panels(1, len(groups), PAGE, 3.2, sharex=True, sharey=True)
+    for axis, (title, rows) in zip(axes[0], groups, strict=True):
+        _draw(axis, rows)
+        axis.set_title(str(title), fontsize=8)
+        axis.set_xlabel("half width (mm)")
+    logarithmic(axes[0][0].xaxis, 4)
+    logarithmic(axes[0][0].yaxis)
+    axes[0][0].set_ylabel("distance of the truth from\nthe interval's middle (mm)")
+    samples = [
+        sample("covered", color=BLUE, marker=".", linestyle=""),
+        sample("missed", color=VERMILION, marker=".", linestyle=""),
+        sample("edge of the interval", color=GREY, linewidth=0.8, linestyle="--"),
+        sample("90% quantile of rows of like width", color=BLACK, marker="o", markersize=4, linewidth=1.2),
+    ]
+    legend_below(figure, samples, 4)
+    first = frame.iloc[0]
+    heading(figure, results, f"{first['confidence_level']:.0%} intervals of {first['coordinate']}, width and error")
+    return figure
+
+
+def _draw(axes: Axes, rows: pd.DataFrame) -> None:
+    level = rows["confidence_level"].iloc[0]
+    for inside, colour in ((True, BLUE), (False, VERMILION)):
+        part = rows[rows["covered"] == inside]
+        axes.loglog(part["half_width_mm"], part["error_mm"], ".", color=colour, markersize=2.5, rasterized=True)
+    low, high = rows["half_width_mm"].agg(["min", "max"])
+    axes.plot([low, high], [low, high], color=GREY, linewidth=0.8, linestyle="--")
+    if _is_constant(rows):
+        return
+    ordered = rows.sort_values("half_width_mm", kind="stable")
+    parts = [ordered.iloc[part] for part in np.array_split(np.arange(len(ordered)), N_PARTS) if len(part)]
+    high = [part["error_mm"].quantile(level) for part in parts]
+    axes.plot([part["half_width_mm"].median() for part in parts], high, "o-", color=BLACK, markersize=3, linewidth=1.2)
+
+
+FIGURE = FigureSpec(
+    "width",
+    "Interval width against error",
+    "Each dot is a row of test: half the width of its interval against the distance of the true position from the "
+    "interval's middle. Dots above the dashed line are missed. Where the black line rises, the method knows where the "
+    "prediction is bad.",
+    frame,
+    plot,
+)

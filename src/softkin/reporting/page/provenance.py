@@ -1,0 +1,91 @@
+"""What was run: the commit, the versions, the data; how to cite and to repeat it."""
+
+from __future__ import annotations
+
+import platform
+import re
+import subprocess
+from collections.abc import Mapping
+from importlib.metadata import requires, version
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from softkin import __version__
+from softkin.reporting.page.grid import Cell, Column, Grid
+from softkin.reporting.page.marks import Marks
+
+#: Not part of what was run, and private: where this machine finds the data and keeps its runs.
+LEFT_OUT = ("data_mirror", "tracking_uri", "sources")
+
+
+def commit(house: Path) -> tuple[str, bool] | None:
+    """(hash, whether files that git knows were changed since) of the checkout whose top folder is `house`; None if it
+    is none, or git is not there.
+    """
+    top = _git(house, "rev-parse", "--show-toplevel")
+    if top is None or Path(top).resolve() != house.resolve():
+        return None
+    head = _git(house, "rev-parse", "HEAD")
+    return None if head is None else (head, bool(_git(house, "status", "--porcelain", "--untracked-files=no")))
+
+
+def _git(house: Path, *arguments: str) -> str | None:
+    try:
+        done = subprocess.run(["git", "-C", str(house), *arguments], capture_output=True, text=True, check=True)
+    except (FileNotFoundError, subprocess.CalledProcessError):
+        return None
+    return done.stdout.strip()
+
+
+def versions() -> dict[str, str]:
+    """softkin, Python and every library that softkin asks for, as installed where the report is written."""
+    names = [re.split(r"[^\w.-]", line)[0] for line in requires("softkin") or [] if "extra ==" not in line]
+    libraries = {name: version(name) for name in sorted(names)}
+    return {"softkin": __version__, "Python": platform.python_version(), "System": platform.system(), **libraries}
+
+
+def settings(config: Mapping[str, Any]) -> str:
+    """The configuration of the run as YAML, fit to be saved and run again."""
+    kept = {key: value for key, value in config.items() if key not in LEFT_OUT}
+    return yaml.safe_dump(kept, sort_keys=False, default_flow_style=None, allow_unicode=True, width=100)
+
+
+def citations(cff: Path, sources: Mapping[str, Mapping[str, Any]]) -> list[str]:
+    """What to cite: softkin and what it implements, from CITATION.cff, then the data, as an entry asks; once each."""
+    content = yaml.safe_load(cff.read_text(encoding="utf-8"))
+    works = [content, *(entry for entry in content.get("references", []) if entry["type"] != "data")]
+    asked = [entry["citation"].strip() for entry in sources.values() if "citation" in entry]
+    return list(dict.fromkeys([*map(_citation, works), *asked]))
+
+
+def _citation(work: Mapping[str, Any]) -> str:
+    people = [who.get("name") or f"{who['family-names']}, {who['given-names']}" for who in work["authors"]]
+    details = [str(work[key]) for key in ("version", "year", "doi", "url") if key in work]
+    return ". ".join(["; ".join(people), work["title"], *details]) + "."
+
+
+def data_grid(
+    descriptions: Mapping[str, Mapping[str, Any]], sources: Mapping[str, Mapping[str, Any]], marks: Marks
+) -> Grid:
+    """One row per dataset: its sizes and the hash of its file."""
+    rows = []
+    for dataset, about in descriptions.items():
+        sizes = [Cell(str(size)) for size in about["rows"].values()]
+        still = ", ".join(about["constant_coordinates"]) or "none"
+        rows.append(
+            [
+                *(Cell(dataset, marks.of_dataset(dataset)), Cell(about["title"])),
+                *(Cell(str(about["n_commands"])), Cell(str(about["n_markers"])), *sizes, Cell(still)),
+                *(Cell(sources[dataset]["file"]), Cell(about["sha256"], verdict="hash")),
+            ]
+        )
+    sentence = (
+        "What the models learned from: commands drive a robot, markers are the points on it whose positions are "
+        "predicted, in mm, and the hash names the file's content beyond doubt."
+    )
+    numbers = ("Commands", "Markers", "Train rows", "Validation", "Test", "Extrapolation")
+    columns = [Column("Robot"), Column("Title", is_wide=True), *(Column(title, is_number=True) for title in numbers)]
+    columns += [Column("Never move"), Column("File"), Column("SHA-256 of the file")]
+    return Grid("data", "The data", sentence, columns, rows)

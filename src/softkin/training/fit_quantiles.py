@@ -1,0 +1,88 @@
+"""Fit quantile models on `train`, predict the quantiles of every other subset."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Sequence
+from pathlib import Path
+
+import joblib
+import numpy as np
+import pandas as pd
+from sklearn.pipeline import make_pipeline
+from sklearn.preprocessing import StandardScaler
+from threadpoolctl import threadpool_limits
+
+from softkin.core.bounds import bounds_frame
+from softkin.core.files import replacing, write_json
+from softkin.core.job import stopwatch
+from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, VALIDATION, Array, Params, Samples
+from softkin.data.table import read_subset
+from softkin.models.quantile.spec import QuantileSpec
+
+logger = logging.getLogger("softkin")
+
+PREDICTED_SUBSETS = (VALIDATION, TEST, EXTRAPOLATION)
+
+
+def quantiles_of(confidence_levels: Sequence[float]) -> list[float]:
+    """alpha/2 and 1 - alpha/2 of each level: [l1, u1, l2, u2, ...], as short decimals."""
+    return [round(q, 12) for level in confidence_levels for q in ((1 - level) / 2, (1 + level) / 2)]
+
+
+class QuantileModel:
+    """Quantile models of all coordinates; a coordinate that never varies on `train` has its constant as quantiles."""
+
+    def __init__(
+        self, spec: QuantileSpec, params: Params, confidence_levels: Sequence[float], seed: int, threads: int
+    ) -> None:
+        self.spec, self.params, self.levels = spec, params, list(confidence_levels)
+        self.seed, self.threads = seed, threads
+
+    def fit(self, samples: Samples) -> QuantileModel:
+        """Fit one model per coordinate that varies, in standardised space."""
+        self.means, self.scales = samples.positions.mean(axis=0), samples.positions.std(axis=0)
+        self.constants = samples.positions[0].copy()
+        self.models = {}
+        for coordinate in np.flatnonzero(np.ptp(samples.positions, axis=0) > 0):
+            standardised = (samples.positions[:, coordinate] - self.means[coordinate]) / self.scales[coordinate]
+            regressor = self.spec.build(self.params, quantiles_of(self.levels), self.seed, self.threads)
+            self.models[int(coordinate)] = make_pipeline(StandardScaler(), regressor).fit(
+                samples.commands, standardised
+            )
+        return self
+
+    def predict(self, commands: Array) -> Array:
+        """Predicted quantiles (n_levels, n_rows, n_coordinates, 2) in mm, as the models give them: they may cross."""
+        result = np.empty((len(self.levels), len(commands), len(self.constants), 2))
+        result[:] = self.constants[:, None]
+        for coordinate, model in self.models.items():
+            flat = model.predict(commands) * self.scales[coordinate] + self.means[coordinate]
+            result[:, :, coordinate] = flat.reshape(len(commands), len(self.levels), 2).transpose(1, 0, 2)
+        return result
+
+
+def fit_quantiles(
+    table: str | Path,
+    *,
+    regressor: QuantileModel,
+    model: str | Path,
+    quantiles: str | Path,
+    record: str | Path,
+) -> None:
+    """Fit `regressor` on `train`; write the `model` (joblib), the `quantiles` of the other subsets (Parquet) and a
+    `record` (JSON).
+    """
+    with stopwatch() as watch, threadpool_limits(regressor.threads):
+        regressor.fit(read_subset(table, TRAIN))
+    with replacing(model) as temporary:
+        joblib.dump(regressor, temporary, compress=3)
+    frames = []
+    for subset in PREDICTED_SUBSETS:
+        predicted = regressor.predict(read_subset(table, subset).commands)
+        frames += [bounds_frame(predicted[i], subset, level) for i, level in enumerate(regressor.levels)]
+    with replacing(quantiles) as temporary:
+        pd.concat(frames, ignore_index=True).to_parquet(temporary, index=False)
+    times = {"fit_seconds": watch.seconds, "fit_cpu_seconds": watch.cpu_seconds}
+    write_json(record, {"params": regressor.params, **times})
+    logger.info("fitted %d quantiles in %.1f s", 2 * len(regressor.levels), watch.seconds)

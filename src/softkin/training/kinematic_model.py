@@ -1,0 +1,88 @@
+"""The regressor commands -> positions that every stage fits, and how it is fitted."""
+
+from __future__ import annotations
+
+import logging
+import warnings
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from sklearn.exceptions import ConvergenceWarning
+from sklearn.pipeline import make_pipeline
+from sklearn.preprocessing import StandardScaler
+from threadpoolctl import threadpool_limits
+
+from softkin.core.rows import sampled_rows
+from softkin.core.samples import Params, Samples
+from softkin.models.estimators.kinematic_regressor import KinematicRegressor
+from softkin.models.spec import ModelSpec
+from softkin.models.target_spaces import TARGET_SPACES
+
+logger = logging.getLogger("softkin")
+
+
+@dataclass(frozen=True, slots=True)
+class FitSettings:
+    """How a model is fitted.
+
+    `params` are the model's own; `skip_constant` leaves coordinates that never move out of the fit; `base` is what the
+    dataset's entry declares of the robot's base, for a target space that needs to know it.
+    """
+
+    params: Params
+    skip_constant: bool
+    seed: int
+    threads: int
+    target_space: str = "cartesian"
+    base: Mapping[str, Any] | None = None
+
+
+def recorded_settings(record: Mapping[str, Any], seed: int, threads: int) -> FitSettings:
+    """The settings of a fit `record`: the same parameters, target space and base."""
+    return FitSettings(
+        params=record["params"],
+        skip_constant=record["skip_constant"],
+        seed=seed,
+        threads=threads,
+        target_space=record["target_space"],
+        base=record["base"],
+    )
+
+
+def kinematic_model(spec: ModelSpec, settings: FitSettings) -> Any:
+    """Unfitted regressor commands -> positions in mm; both are standardised inside, by what it is fitted on."""
+    return KinematicRegressor(
+        make_pipeline(StandardScaler(), spec.build(settings.params, settings.seed, settings.threads)),
+        TARGET_SPACES[settings.target_space].transformer(settings.skip_constant, settings.base),
+    )
+
+
+def fitted_model(spec: ModelSpec, settings: FitSettings, samples: Samples) -> Any:
+    """The model of `settings`, fitted on `samples`."""
+    estimator = kinematic_model(spec, settings)
+    fit_quietly(estimator, samples, settings.threads)
+    return estimator
+
+
+def fit_quietly(estimator: Any, samples: Samples, threads: int) -> int:
+    """Fit in place on at most `threads` threads; return how many solvers stopped at their iteration bound.
+
+    The bounds are deliberate (no fit may run away), so their warnings are counted, not printed.
+    """
+    with warnings.catch_warnings(record=True) as caught, threadpool_limits(threads):
+        warnings.simplefilter("always")
+        estimator.fit(samples.commands, samples.positions)
+    stopped = [w for w in caught if issubclass(w.category, ConvergenceWarning)]
+    for message in {str(w.message) for w in caught if w not in stopped}:
+        logger.warning("%s", message)
+    return len(stopped)
+
+
+def some_rows(samples: Samples, max_rows: int | None, seed: int) -> Samples:
+    """At most `max_rows` rows, drawn without replacement, in their order; all where it is None."""
+    if max_rows is None or len(samples) <= max_rows:
+        return samples
+    logger.warning("fitted on %d of %d rows: max_fit_rows", max_rows, len(samples))
+    rows = sampled_rows(len(samples), max_rows, seed)
+    return Samples(samples.commands[rows], samples.positions[rows])

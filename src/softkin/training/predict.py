@@ -1,0 +1,78 @@
+"""Predict every subset with a fitted model."""
+
+from __future__ import annotations
+
+import statistics
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import joblib
+import numpy as np
+import pandas as pd
+from threadpoolctl import threadpool_limits
+
+from softkin.core.files import replacing, write_json
+from softkin.core.samples import SUBSETS, TEST, TRAIN, Array, Samples, coordinate_columns
+from softkin.data.table import read_subset
+from softkin.models.spec import ModelSpec
+
+#: What the columns of a model's spread start with.
+STANDARD_DEVIATION, SPREAD = "std_", "spread_"
+
+
+def spread_of(spec: ModelSpec, estimator: Any, train: Samples, commands: Array) -> Array:
+    """What a fitted kinematic model says itself of its uncertainty at `commands`: (n_rows, n_coordinates) in mm."""
+    assert spec.spread is not None
+    scaler, regressor = estimator.regressor_[0], estimator.regressor_[-1]
+    known = Samples(scaler.transform(train.commands), estimator.transformer_.transform(train.positions))
+    spread = spec.spread(regressor, known, scaler.transform(commands))
+    return np.asarray(estimator.transformer_.inverse_spread(estimator.targets(commands), spread))
+
+
+def predict(
+    table: str | Path,
+    *,
+    spec: ModelSpec,
+    model: str | Path,
+    threads: int,
+    predictions: str | Path,
+    record: str | Path,
+) -> None:
+    """Write the `predictions` (Parquet: subset, m1_x.. in mm, rows as in `table`) of every subset, and how long
+    `test` takes a row (median of five). A model with a spread gets columns for it too: std_m1_x.. (mm) where
+    it is a predictive standard deviation, else spread_m1_x...
+    """
+    estimator = joblib.load(model)
+    train = read_subset(table, TRAIN)
+    frames = []
+    with threadpool_limits(threads):
+        for subset in SUBSETS:
+            commands = (train if subset == TRAIN else read_subset(table, subset)).commands
+            frames.append(_frame(subset, np.asarray(estimator.predict(commands))))
+            if spec.spread is not None:
+                spread = _frame(subset, spread_of(spec, estimator, train, commands))
+                prefix = STANDARD_DEVIATION if spec.is_predictive else SPREAD
+                frames[-1] = pd.concat([frames[-1], spread.iloc[:, 1:].add_prefix(prefix)], axis=1)
+            if subset == TEST:
+                microseconds = _microseconds_per_row(estimator, commands)
+    with replacing(predictions) as temporary:
+        pd.concat(frames, ignore_index=True).to_parquet(temporary, index=False)
+    write_json(record, {"predict_us_per_row": microseconds})
+
+
+def _frame(subset: str, positions: Array) -> pd.DataFrame:
+    columns: Sequence[str] = coordinate_columns(positions.shape[1] // 3)
+    frame = pd.DataFrame(positions, columns=columns)
+    frame.insert(0, "subset", subset)
+    return frame
+
+
+def _microseconds_per_row(estimator: Any, commands: Array, repeats: int = 5) -> float:
+    seconds = []
+    for _ in range(repeats):
+        start = time.perf_counter()
+        estimator.predict(commands)
+        seconds.append(time.perf_counter() - start)
+    return 1e6 * statistics.median(seconds) / len(commands)

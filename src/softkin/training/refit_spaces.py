@@ -1,0 +1,61 @@
+"""Fit every model in the target space that its search has not chosen: what a target space is worth, model by model."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from softkin.core.errors import SoftkinError
+from softkin.core.files import read_json, replacing
+from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, Params, coordinate_columns
+from softkin.data.table import read_subset
+from softkin.models.spec import ModelSpec
+from softkin.training.kinematic_model import fitted_model, recorded_settings, some_rows
+
+logger = logging.getLogger("softkin")
+
+SPACE_SUBSETS = (TEST, EXTRAPOLATION)
+
+
+def refit_spaces(
+    table: str | Path,
+    *,
+    specs: Mapping[str, ModelSpec],
+    parameters: Mapping[str, str | Path],
+    base: Params | None,
+    max_fit_rows: Mapping[str, int],
+    seed: int,
+    threads: int,
+    predictions: str | Path,
+) -> None:
+    """Write `predictions` (Parquet: model, target_space, subset, m1_x.. in mm) of test and extrapolation.
+
+    `parameters` is model -> file of what its study by outer shells found; `base` is what the dataset's entry declares
+    of the base. Of test and extrapolation commands are read, and no positions.
+    """
+    train = read_subset(table, TRAIN)
+    commands = {subset: read_subset(table, subset).commands for subset in SPACE_SUBSETS}
+    columns = coordinate_columns(train.positions.shape[1] // 3)
+    frames = [pd.DataFrame(columns=["model", "target_space", "subset", *columns])]
+    for place, (model, spec) in enumerate(specs.items()):
+        other = read_json(parameters[model])["other_space"]
+        if other is None:
+            logger.info("%s is left out: no trial of another target space was scored", model)
+            continue
+        record = {"skip_constant": True, "base": base, **other}
+        try:
+            samples = some_rows(train, max_fit_rows.get(model), seed)
+            estimator = fitted_model(spec, recorded_settings(record, seed, threads), samples)
+        except SoftkinError as error:
+            logger.warning("%s is left out in %s: %s", model, other["target_space"], error)
+            continue
+        for subset, rows in commands.items():
+            frame = pd.DataFrame(np.asarray(estimator.predict(rows)), columns=columns)
+            frames.append(frame.assign(model=model, target_space=other["target_space"], subset=subset))
+        logger.info("%d of %d models fitted: %s in %s", place + 1, len(specs), model, other["target_space"])
+    with replacing(predictions) as temporary:
+        pd.concat(frames, ignore_index=True).to_parquet(temporary, index=False)

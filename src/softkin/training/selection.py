@@ -1,0 +1,138 @@
+"""Which run each dataset gets, by scores on `train` alone: for interpolation, for extrapolation, or for both."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from softkin.core.files import read_json
+from softkin.core.runs import OUTER, Run
+from softkin.core.samples import EXTRAPOLATION, TEST
+from softkin.models.spec import PAPERS_RUN
+
+INTERPOLATION, BOTH = "interpolation", "both"
+CV, SHELL = "cv_mae_mm", "shell_mae_mm"
+#: Below this (mm) nobody cares which of two errors is smaller, and a logarithm would.
+NEGLIGIBLE_MM = 1e-9
+
+
+def searched_runs(parameters: Mapping[tuple[str, str, str], str | Path]) -> pd.DataFrame:
+    """Columns dataset, model, preset, target_space, cv_mae_mm, shell_mae_mm (NaN where there is no such score), a row
+    per file of best parameters; `parameters` is (dataset, model, preset) -> file.
+    """
+    rows = []
+    for (dataset, model, preset), path in parameters.items():
+        found = read_json(path)
+        # A score that is infinite is written as null, one that was not asked for is not written.
+        scores = {name: found.get(name, np.nan) for name in (CV, SHELL)}
+        scores = {name: np.inf if score is None else score for name, score in scores.items()}
+        key = {"dataset": dataset, "model": model, "preset": preset, "target_space": found["target_space"]}
+        rows.append(key | scores)
+    return pd.DataFrame(rows)
+
+
+def on_front(runs: pd.DataFrame) -> pd.Series:
+    """Which runs of a dataset no other beats in both scores (the Pareto front); equal ones are on it together."""
+    scores = runs[[CV, SHELL]].to_numpy()
+    no_worse = (scores[:, None] >= scores[None]).all(axis=2)
+    beaten = no_worse & (scores[:, None] > scores[None]).any(axis=2)
+    return pd.Series(np.logical_not(beaten.any(axis=1)), index=runs.index)
+
+
+#: What a run that is not on the Pareto front loses a tie by.
+OFF_FRONT = 1 + 1e-12
+
+
+def _both(runs: pd.DataFrame) -> pd.Series:
+    """Geometric mean of the two scores (mm), so that a factor counts the same in either: its lowest is on the Pareto
+    front.
+    """
+    logarithms = np.log(runs[[CV, SHELL]].clip(lower=NEGLIGIBLE_MM)).mean(axis=1, skipna=False)
+    means = np.exp(logarithms)
+    return means.where(on_front(runs), OFF_FRONT * means)
+
+
+#: What a run is chosen by: the lowest wins.
+OBJECTIVES: dict[str, Callable[[pd.DataFrame], pd.Series]] = {
+    INTERPOLATION: lambda runs: runs[CV],
+    EXTRAPOLATION: lambda runs: runs[SHELL],
+    BOTH: _both,
+}
+
+
+def selection(runs: pd.DataFrame, objective: str) -> pd.DataFrame:
+    """One row per dataset and objective that there are scores for: the run of lowest score, and the runner-up, the next
+    model; `deployed` marks those of the configured `objective`.
+
+    `runs` is as `searched_runs` gives it. Ties go to the model that comes first in the registry.
+    """
+    rows = []
+    for dataset, pool in runs.groupby("dataset", sort=False):
+        for name, scored in OBJECTIVES.items():
+            scores = scored(pool)
+            if scores.isna().any():
+                continue
+            ranked = pool.assign(score=scores).sort_values("score", kind="stable").reset_index(drop=True)
+            best, others = ranked.iloc[0], ranked[ranked["model"] != ranked.loc[0, "model"]]
+            rows.append(
+                {
+                    "dataset": dataset,
+                    "objective": name,
+                    **best[["model", "preset", "target_space", CV, SHELL]],
+                    "runner_up": "" if others.empty else others.iloc[0]["model"],
+                    "runner_up_ratio": float("nan") if others.empty else others.iloc[0]["score"] / best["score"],
+                    "pool": " ".join(dict.fromkeys(ranked["model"])),
+                    "deployed": name == objective,
+                }
+            )
+    return pd.DataFrame(rows)
+
+
+def foretold(runs: pd.DataFrame, point: pd.DataFrame) -> pd.DataFrame:
+    """The searched `runs` with their mean absolute errors on test and extrapolation, and for each dataset how well
+    either score foretold the order of the runs on extrapolation: Spearman's rank correlation, the same in each row.
+    `on_front` says which runs no other of the dataset beats in both scores.
+
+    `point` are the point metrics. A dataset with one run has no correlation.
+    """
+    key = ["dataset", "model", "preset"]
+    errors = point.pivot_table(index=key, columns="subset", values="mae_mm")
+    result = runs.copy()
+    fronts = [on_front(pool) for _, pool in runs.groupby("dataset")]
+    result["on_front"] = pd.concat(fronts).reindex(runs.index)
+    for subset in (TEST, EXTRAPOLATION):
+        result[f"{subset}_mae_mm"] = errors[subset].reindex(pd.MultiIndex.from_frame(runs[key])).to_numpy()
+    for name, score in (("cv", CV), ("shell", SHELL)):
+        of = {
+            dataset: pool[score].rank().corr(pool[f"{EXTRAPOLATION}_mae_mm"].rank())
+            for dataset, pool in result.groupby("dataset")
+        }
+        result[f"{name}_rank_correlation"] = result["dataset"].map(of)
+    return result
+
+
+def deployed(chosen: pd.DataFrame) -> pd.DataFrame:
+    """The rows of a selection that are deployed, one per dataset."""
+    return chosen[chosen["deployed"]].reset_index(drop=True)
+
+
+def run_of_choice(parameters: Mapping[Run, str | Path], objective: str) -> Run:
+    """The run that is deployed; `parameters` is run -> file of what its study found."""
+    runs = searched_runs({("", *run): file for run, file in parameters.items()})
+    best = deployed(selection(runs, objective)).iloc[0]
+    return Run(best["model"], best["preset"])
+
+
+def shell_runs(
+    runs: Collection[Run], parameters: Mapping[Run, str | Path], objective: str, robust_models: Collection[str]
+) -> list[Run]:
+    """The runs, of all `runs`, that get intervals for extrapolation: refitting all would take too long. The paper's,
+    the chosen one, the `outer` ones of robust models; `parameters` as for `run_of_choice`, empty where nothing was
+    searched.
+    """
+    chosen = [run_of_choice(parameters, objective)] if parameters else []
+    robust = [Run(model, OUTER) for model in robust_models]
+    return [run for run in dict.fromkeys([PAPERS_RUN, *chosen, *robust]) if run in runs]

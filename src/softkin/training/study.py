@@ -1,0 +1,212 @@
+"""A resumable Optuna study: the parameters whose error, part by part of `train`, is lowest on average."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import logging
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import optuna
+import pandas as pd
+from filelock import FileLock
+from optuna.trial import FrozenTrial, Trial, TrialState
+
+from softkin.core.errors import DataError
+from softkin.core.files import replacing, sha256_of
+from softkin.core.rows import sampled_rows
+from softkin.core.samples import Params, Samples
+from softkin.data.table import content_hash
+
+logger = logging.getLogger("softkin")
+
+#: Whatever can change a trial's outcome besides our own code.
+DECIDING_PACKAGES = ("numpy", "scipy", "scikit-learn", "xgboost", "optuna")
+ENDED = (TrialState.COMPLETE, TrialState.PRUNED)
+#: From the sixth on, a trial goes on only as long as its running mean is among this share (percent) of the complete
+#: ones: parts are the same for all, so the first tells nearly all. `benchmarks/pruning.py` measures what that costs.
+STARTUP_TRIALS, KEPT_PERCENT = 5, 10.0
+
+
+@dataclass(frozen=True, slots=True)
+class TuningSettings:
+    """`n_trials` is the study's total; `n_folds` folds grouped by distinct command; a trial sees `max_rows` rows."""
+
+    n_trials: int
+    n_folds: int
+    max_rows: int
+    seed: int
+
+
+@dataclass(frozen=True, slots=True)
+class TuningResult:
+    """Best parameters, their score (mm), the table of all trials, the study's fingerprint; parameters and scores of all
+    complete trials, the best first.
+    """
+
+    params: Params
+    score_mm: float
+    trials: pd.DataFrame
+    fingerprint: str
+    complete: Sequence[tuple[Params, float]]
+
+
+def bounded_rows(samples: Samples, max_rows: int, seed: int) -> Samples:
+    """At most `max_rows` rows drawn without replacement, in their order."""
+    rows = sampled_rows(len(samples), max_rows, seed)
+    return Samples(samples.commands[rows], samples.positions[rows])
+
+
+def fingerprint(name: str, samples: Samples, settings: TuningSettings, code: Sequence[str | Path]) -> str:
+    """SHA-256 (hex) of all that decides a trial: the rows of `train`, the settings but for the number of trials,
+    our source files `code`, the library versions.
+    """
+    decides = {
+        "model": name,
+        "data": content_hash(samples),
+        "settings": {key: value for key, value in asdict(settings).items() if key != "n_trials"},
+        "code": sha256_of(sorted(map(str, code))),
+        "versions": {package: version(package) for package in DECIDING_PACKAGES},
+    }
+    return hashlib.sha256(json.dumps(decides, sort_keys=True).encode()).hexdigest()
+
+
+@dataclass(frozen=True, slots=True)
+class Search:
+    """What a study looks through.
+
+    `space(trial)` draws parameters, after those of `first_trials`; `errors_of(params)` gives the error (mm) on each of
+    `n_parts` parts of `train`; the lowest mean is looked for. `name` holds all else that decides a trial.
+    """
+
+    name: str
+    space: Callable[[Trial], Params]
+    first_trials: Sequence[Mapping[str, Any]]
+    errors_of: Callable[[Params], Iterator[float]]
+    n_parts: int
+
+
+@dataclass(frozen=True, slots=True)
+class StudyFile:
+    """Where a study lives (SQLite), and the source files whose `code` decides its trials."""
+
+    path: str | Path
+    code: Sequence[str | Path]
+
+
+def run_study(samples: Samples, *, search: Search, settings: TuningSettings, file: StudyFile) -> TuningResult:
+    """Bring the study in `file` to `settings.n_trials` ended trials and return what it found.
+
+    A trial is cut short as soon as it is no match for the others, or an error is not finite.
+
+    Resumable to the bit: a killed run leaves ended trials in the file; the next run marks the trial it was in as
+    failed and draws it again from a sampler seeded by the trial's place, so that it ends with the same trials as an
+    undisturbed run. A file of another fingerprint is replaced.
+
+    Raises:
+        DataError: no trial could be scored.
+    """
+    optuna.logging.set_verbosity(optuna.logging.WARNING)
+    path = Path(file.path).resolve()
+    path.parent.mkdir(parents=True, exist_ok=True)
+    mark = fingerprint(search.name, samples, settings, file.code)
+    # An orphan of a killed workflow may still be writing: the lock goes with the process that holds it.
+    with FileLock(f"{path}.lock"):
+        study = _open_study(path, mark)
+        for unfinished in study.get_trials(deepcopy=False, states=(TrialState.RUNNING,)):
+            study.tell(unfinished.number, state=TrialState.FAIL)
+        ended = len(study.get_trials(deepcopy=False, states=ENDED))
+        if ended:
+            logger.info("resuming after %d of %d trials", ended, settings.n_trials)
+        while ended < settings.n_trials:
+            first = search.first_trials
+            if ended < len(first) and not study.get_trials(deepcopy=False, states=(TrialState.WAITING,)):
+                study.enqueue_trial(dict(first[ended]))
+            study.sampler = optuna.samplers.TPESampler(
+                seed=settings.seed + ended, multivariate=True, constant_liar=False
+            )
+            study.optimize(lambda trial: _score(trial, search), n_trials=1)
+            ended += 1
+            _report_progress(study, ended, settings.n_trials)
+        return _result(study.get_trials(states=ENDED)[: settings.n_trials], mark, search.name)
+
+
+def _score(trial: Trial, search: Search) -> float:
+    """Mean error (mm) of the parameters that `trial` draws; the trial keeps what it took."""
+    start, cpu = time.perf_counter(), time.process_time()
+    params = search.space(trial)
+    trial.set_user_attr("params", params)
+    errors: list[float] = []
+    try:
+        for step, error in enumerate(search.errors_of(params)):
+            errors.append(error)
+            if not np.isfinite(error):
+                raise optuna.TrialPruned
+            trial.report(float(np.mean(errors)), step)
+            if step + 1 < search.n_parts and trial.should_prune():
+                raise optuna.TrialPruned
+    finally:
+        trial.set_user_attr("n_parts_scored", len(errors))
+        trial.set_user_attr("seconds", time.perf_counter() - start)
+        trial.set_user_attr("cpu_seconds", time.process_time() - cpu)
+    return float(np.mean(errors))
+
+
+def _open_study(path: Path, mark: str) -> optuna.Study:
+    """The study of this fingerprint; a new one, put in place whole, when there is none."""
+    name = mark[:16]
+    pruner = optuna.pruners.PercentilePruner(KEPT_PERCENT, n_startup_trials=STARTUP_TRIALS)
+    if not path.exists() or name not in optuna.get_all_study_names(f"sqlite:///{path}"):
+        with replacing(path) as temporary:
+            storage = optuna.storages.RDBStorage(f"sqlite:///{temporary}")
+            optuna.create_study(storage=storage, study_name=name)
+            storage.engine.dispose()
+    return optuna.load_study(study_name=name, storage=f"sqlite:///{path}", pruner=pruner)
+
+
+def _report_progress(study: optuna.Study, ended: int, total: int) -> None:
+    trial = study.get_trials(deepcopy=False)[-1]
+    logger.debug("trial %d of %d: %s %s %s", ended, total, trial.state.name, trial.value, trial.params)
+    if ended == total or ended % max(1, total // 4) == 0:
+        scored = [t for t in study.get_trials(deepcopy=False) if t.state == TrialState.COMPLETE]
+        best = min((float(t.value) for t in scored if t.value is not None), default=float("nan"))
+        logger.info("%d of %d trials, best %.4g mm", ended, total, best)
+
+
+def _result(trials: list[FrozenTrial], mark: str, model: str) -> TuningResult:
+    complete = [trial for trial in trials if trial.state == TrialState.COMPLETE and trial.value is not None]
+    if not complete:
+        raise DataError(
+            f"none of {len(trials)} trials could be scored",
+            where=model,
+            fix="look at the log for why trials failed, and at the positions of `train`",
+        )
+    complete.sort(key=lambda trial: (trial.value, trial.number))
+    found = [(trial.user_attrs["params"], float(trial.value or 0.0)) for trial in complete]
+    table = pd.DataFrame([_row(place, trial) for place, trial in enumerate(trials)])
+    return TuningResult(*found[0], table, mark, found)
+
+
+def _row(place: int, trial: FrozenTrial) -> dict[str, Any]:
+    shown = {f"param_{key}": value for key, value in sorted(trial.params.items())}
+    attributes = {key: trial.user_attrs.get(key) for key in ("n_parts_scored", "seconds", "cpu_seconds")}
+    # Optuna gives a pruned trial its last running mean as value; only a whole cross-validation is a score.
+    whole = trial.state == TrialState.COMPLETE
+    scores = {"score_mm": trial.value if whole else None, "first_part_mm": trial.intermediate_values.get(0)}
+    return {"trial": place, "state": trial.state.name} | scores | attributes | shown
+
+
+def record(result: TuningResult) -> dict[str, Any]:
+    """What a file of best parameters says of its study."""
+    return {
+        "n_trials": len(result.trials),
+        "n_pruned": int((result.trials["state"] == TrialState.PRUNED.name).sum()),
+        "cpu_seconds": float(result.trials["cpu_seconds"].sum()),
+        "fingerprint": result.fingerprint,
+    }

@@ -1,0 +1,210 @@
+"""Tune one model on one dataset, for commands like those of `train` and for commands beyond them.
+
+Both studies see `train` alone, and search over the target space too. The preset `tuned` is scored by cross-validation
+grouped by distinct command; the preset `outer` by outer shells: fitted on the inner core of `train` by command norm,
+scored on the shell around it, for cores of several sizes.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from softkin.core.errors import SoftkinError
+from softkin.core.files import replacing, write_json
+from softkin.core.folds import Folds, grouped_folds
+from softkin.core.runs import OUTER, TUNED
+from softkin.core.samples import TRAIN, Params, Samples, informative_coordinates
+from softkin.core.shells import command_norm, outer_shells
+from softkin.data.table import read_subset
+from softkin.models.spec import ModelSpec
+from softkin.models.target_spaces import TARGET_SPACES
+from softkin.training.kinematic_model import FitSettings, fitted_model
+from softkin.training.study import Search, StudyFile, TuningResult, TuningSettings, bounded_rows, record, run_study
+
+if TYPE_CHECKING:
+    from optuna.trial import Trial
+
+logger = logging.getLogger("softkin")
+
+#: What a preset's score is called.
+SCORES = {TUNED: "cv_mae_mm", OUTER: "shell_mae_mm"}
+SPACE = "target_space"
+
+
+@dataclass(frozen=True, slots=True)
+class Robot:
+    """What of a dataset's entry a study must know: what it declares of the base, and whether commands are standardised
+    before their norm is taken.
+    """
+
+    base: Mapping[str, Any] | None
+    standardised_norm: bool
+
+
+@dataclass(frozen=True, slots=True)
+class SearchSettings:
+    """`n_trials` by preset; the presets by whose `scores` every find is judged; a trial sees `max_markers` moving
+    markers; cores hold these shares of the rows of `train`; the target spaces to choose from.
+    """
+
+    n_trials: Mapping[str, int]
+    scores: Collection[str]
+    max_markers: int
+    core_shares: Sequence[float]
+    target_spaces: Sequence[str]
+
+
+def part_errors(
+    spec: ModelSpec, params: Params, samples: Samples, parts: Folds, robot: Robot, seed: int, threads: int
+) -> Iterator[float]:
+    """Mean absolute error (mm) over moving coordinates, part by part; everything is fitted inside the part.
+
+    `params` says the target space too. Where no arc leads to a marker the error is infinite.
+    """
+    own_params = dict(params)
+    space = own_params.pop(SPACE)
+    moving = informative_coordinates(samples.positions)
+    for fitted_rows, scored_rows in parts:
+        settings = FitSettings(own_params, True, seed, threads, target_space=space, base=robot.base)
+        try:
+            fitted = Samples(samples.commands[fitted_rows], samples.positions[fitted_rows])
+            estimator = fitted_model(spec, settings, fitted)
+        except SoftkinError as error:
+            logger.info("%s is left out here: %s", space, error)
+            yield float("inf")
+            return
+        predicted = estimator.predict(samples.commands[scored_rows])
+        yield float(np.abs(predicted - samples.positions[scored_rows])[:, moving].mean())
+
+
+def some_markers(samples: Samples, max_markers: int) -> Samples:
+    """Samples with the markers that never move and at most `max_markers` of the others, evenly spread up to the last:
+    those of one robot resemble each other, and some models cost a fit per coordinate.
+    """
+    moves = np.asarray(informative_coordinates(samples.positions).reshape(-1, 3).any(axis=1))
+    moving = np.flatnonzero(moves)
+    if len(moving) <= max_markers:
+        return samples
+    # Their places from the end, the last one first.
+    seen = moving[::-1][np.linspace(0, len(moving), max_markers, endpoint=False).astype(int)]
+    kept = np.repeat(~moves | np.isin(np.arange(len(moves)), seen), 3)
+    return Samples(samples.commands, samples.positions[:, kept])
+
+
+def possible_spaces(samples: Samples, spaces: Sequence[str], robot: Robot) -> list[str]:
+    """The target spaces whose domain holds every row; the log says why another is left out.
+
+    Raises:
+        SoftkinError: none of them does.
+    """
+    possible = []
+    for space in spaces:
+        try:
+            TARGET_SPACES[space].transformer(True, robot.base).fit(samples.positions, samples.commands)
+            possible.append(space)
+        except SoftkinError as error:
+            logger.warning("target space '%s' is left out: %s", space, error)
+            reason = error
+    if not possible:
+        raise reason
+    return possible
+
+
+@dataclass(frozen=True, slots=True)
+class PresetFiles:
+    """Of one preset: the file of its `study`, and where the best `parameters` (JSON) and all `trials` (CSV) go."""
+
+    study: str | Path
+    parameters: str | Path
+    trials: str | Path
+
+
+def tune_model(
+    samples: Samples,
+    *,
+    spec: ModelSpec,
+    preset: str,
+    robot: Robot,
+    settings: TuningSettings,
+    search: SearchSettings,
+    file: StudyFile,
+    threads: int,
+) -> tuple[TuningResult, dict[str, float]]:
+    """The study of one model by the score of `preset`, and every score of the best parameters."""
+    spaces = possible_spaces(samples, search.target_spaces, robot)
+    rows = some_markers(bounded_rows(samples, settings.max_rows, settings.seed), search.max_markers)
+    parts = {TUNED: grouped_folds(rows.commands, settings.n_folds, settings.seed)}
+    if OUTER in search.scores:
+        norm = command_norm(samples.commands, standardised=robot.standardised_norm)
+        parts[OUTER] = outer_shells(norm.of(rows.commands), search.core_shares)
+
+    def errors_of(params: Params, by: str) -> Iterator[float]:
+        return part_errors(spec, params, rows, parts[by], robot, settings.seed, threads)
+
+    def search_space(trial: Trial) -> Params:
+        return {SPACE: trial.suggest_categorical(SPACE, spaces), **spec.search_space(trial)}
+
+    decides = [preset, *spaces, str(robot), str(search.max_markers), *map(str, search.core_shares)]
+    result = run_study(
+        samples,
+        search=Search(
+            name=" ".join([spec.name, *decides]),
+            space=search_space,
+            first_trials=[{SPACE: space, **first} for space in spaces for first in spec.first_trials],
+            errors_of=lambda params: errors_of(params, preset),
+            n_parts=len(parts[preset]),
+        ),
+        settings=replace(settings, n_trials=search.n_trials[preset]),
+        file=file,
+    )
+    others = {by: float(np.mean(list(errors_of(result.params, by)))) for by in parts if by != preset}
+    return result, {SCORES[by]: score for by, score in {preset: result.score_mm, **others}.items()}
+
+
+def tune_table(
+    table: str | Path,
+    *,
+    spec: ModelSpec,
+    robot: Robot,
+    settings: TuningSettings,
+    search: SearchSettings,
+    files: Mapping[str, PresetFiles],
+    code: Sequence[str | Path],
+    threads: int,
+) -> None:
+    """Tune on the rows of `train` in `table` by each preset, and write its `files`; `code` decides the studies."""
+    samples = read_subset(table, TRAIN)
+    for preset, of_preset in files.items():
+        logger.info("preset %s", preset)
+        result, scores = tune_model(
+            samples,
+            spec=spec,
+            preset=preset,
+            robot=robot,
+            settings=settings,
+            search=search,
+            file=StudyFile(of_preset.study, code),
+            threads=threads,
+        )
+        with replacing(of_preset.trials) as temporary:
+            result.trials.to_csv(temporary, index=False)
+        params = dict(result.params)
+        space = params.pop(SPACE)
+        finite = {name: score if np.isfinite(score) else None for name, score in scores.items()}
+        other = {"other_space": other_space(result)} if preset == OUTER else {}
+        write_json(of_preset.parameters, {SPACE: space, "params": params, **finite, **other, **record(result)})
+
+
+def other_space(result: TuningResult) -> dict[str, Any] | None:
+    """The best trial of a target space other than the best one's: its space, params and score; None without one."""
+    for found, score in result.complete:
+        if found[SPACE] != result.params[SPACE]:
+            params = {name: value for name, value in found.items() if name != SPACE}
+            return {SPACE: found[SPACE], "params": params, SCORES[OUTER]: score}
+    return None

@@ -1,0 +1,169 @@
+"""Calibration data: what an interval method is calibrated on, one class for each kind.
+
+Rows are those of `validation` (calibration rows) and those that get intervals (new rows). Positions and spreads are
+(n_rows, n_coordinates) in mm, commands (n_rows, n_commands), quantiles (n_levels, n_rows, n_coordinates, 2) in mm.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import ClassVar, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from softkin.core.samples import Array
+
+Rows = NDArray[np.intp]
+
+
+class CalibrationData:
+    """What every kind says of itself.
+
+    `is_around_a_model`: its intervals lie around the prediction of a point model, not of a regressor of their own.
+    `is_for_extrapolation`: it serves commands beyond those of `train`, and adds nothing in-domain.
+    `has_spread`: it holds what the model itself says of its uncertainty at each command.
+    `needs_quantiles`, `needs_refits`, `needs_shells`: it is read from quantile regressors, from refits of a model on
+    folds or resamples, or from refits on cores of `train`.
+    """
+
+    is_around_a_model: ClassVar[bool] = True
+    is_for_extrapolation: ClassVar[bool] = False
+    has_spread: ClassVar[bool] = False
+    needs_quantiles: ClassVar[bool] = False
+    needs_refits: ClassVar[bool] = False
+    needs_shells: ClassVar[bool] = False
+
+    truth: Array
+
+
+@dataclass(frozen=True)
+class PointCalibration(CalibrationData):
+    """Predicted positions of calibration rows (`calibration`) with their `truth`, and of new rows (`new`)."""
+
+    calibration: Array
+    truth: Array
+    new: Array
+    train_commands: Array
+    calibration_commands: Array
+    new_commands: Array
+
+    def resplit(self, calibration_rows: Rows, held_out_rows: Rows) -> Self:
+        """The calibration rows split again: calibrated on some of them, asked about the others."""
+        return replace(
+            self,
+            calibration=self.calibration[calibration_rows],
+            truth=self.truth[calibration_rows],
+            new=self.calibration[held_out_rows],
+            calibration_commands=self.calibration_commands[calibration_rows],
+            new_commands=self.calibration_commands[held_out_rows],
+        )
+
+
+@dataclass(frozen=True)
+class SpreadCalibration(PointCalibration):
+    """Predicted positions of a model that says how unsure it is: its spread, in mm, on every row."""
+
+    train_spread: Array
+    calibration_spread: Array
+    new_spread: Array
+
+    has_spread: ClassVar[bool] = True
+
+    def resplit(self, calibration_rows: Rows, held_out_rows: Rows) -> Self:
+        """As for predicted positions, the spread with them."""
+        return replace(
+            super().resplit(calibration_rows, held_out_rows),
+            calibration_spread=self.calibration_spread[calibration_rows],
+            new_spread=self.calibration_spread[held_out_rows],
+        )
+
+
+@dataclass(frozen=True)
+class PredictiveCalibration(SpreadCalibration):
+    """Predicted positions of a model whose spread is the standard deviation of a predictive distribution."""
+
+
+@dataclass(frozen=True)
+class QuantileCalibration(CalibrationData):
+    """Predicted quantiles of calibration rows with their true positions `truth`, and of new rows."""
+
+    calibration: Array
+    truth: Array
+    new: Array
+
+    is_around_a_model: ClassVar[bool] = False
+    needs_quantiles: ClassVar[bool] = True
+
+    def resplit(self, calibration_rows: Rows, held_out_rows: Rows) -> Self:
+        """The calibration rows split again: calibrated on some of them, asked about the others."""
+        return replace(
+            self,
+            calibration=self.calibration[:, calibration_rows],
+            truth=self.truth[calibration_rows],
+            new=self.calibration[:, held_out_rows],
+        )
+
+
+@dataclass(frozen=True)
+class RefitCalibration(CalibrationData):
+    """A model fitted again and again on parts of `train`.
+
+    `fitted_rows` holds the rows of `train` of each fit; `train` (n_fits, n_train, n_coordinates) and `new` (n_fits,
+    n_new, n_coordinates) what each predicts; `truth` (n_train, n_coordinates); in mm.
+    """
+
+    fitted_rows: Sequence[Rows]
+    train: Array
+    truth: Array
+    new: Array
+
+    needs_refits: ClassVar[bool] = True
+
+
+@dataclass(frozen=True)
+class FoldCalibration(RefitCalibration):
+    """Each fit leaves out one fold of `train`; each row is left out by one fit."""
+
+
+@dataclass(frozen=True)
+class ResampleCalibration(RefitCalibration):
+    """Each fit is on a bootstrap sample of `train`; each row is left out by at least one fit."""
+
+
+@dataclass(frozen=True)
+class Shell:
+    """What a model fitted on an inner core of `train` predicts of the shell around it.
+
+    `predicted` and `truth` are (n_shell, n_coordinates) in mm, `core_commands` and `commands` (n_rows, n_commands).
+    """
+
+    core_commands: Array
+    commands: Array
+    predicted: Array
+    truth: Array
+
+
+@dataclass(frozen=True)
+class ShellCalibration(CalibrationData):
+    """The `deployed` model, fitted on all of `train`, and the same model fitted on its cores, the smallest first.
+
+    `norm` takes commands (n_rows, n_commands) to how far out they lie (n_rows,). `in_domain` (n_levels, n_rows,
+    n_coordinates, 2) are the bounds that in-domain rows get; None: those of split conformal prediction.
+    `in_domain_has_spread` says that those bounds widen where the model is unsure, not with the distance alone.
+    """
+
+    deployed: PointCalibration
+    shells: Sequence[Shell]
+    norm: Callable[[Array], Array]
+    in_domain: Array | None = None
+    in_domain_has_spread: bool = False
+
+    is_for_extrapolation: ClassVar[bool] = True
+    needs_shells: ClassVar[bool] = True
+
+    @property
+    def truth(self) -> Array:  # type: ignore[override]
+        """True positions of the deployed model's calibration rows."""
+        return self.deployed.truth

@@ -1,0 +1,127 @@
+"""Choose the interval method of a dataset, on `validation` alone: nothing of `test` is looked at."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Collection, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+from sklearn.model_selection import KFold
+
+from softkin.core.errors import ConfigError
+from softkin.core.files import replacing
+from softkin.core.metrics.interval import winkler_scores
+from softkin.core.runs import PAPERS_LEVEL, Run
+from softkin.core.samples import informative_coordinates
+from softkin.models.spec import PAPERS_RUN
+from softkin.uncertainty.calibration_data import PointCalibration, QuantileCalibration, ShellCalibration
+from softkin.uncertainty.intervals.spec import AUTO, MARGINAL, IntervalMethod
+from softkin.uncertainty.stored_outputs import StoredOutputs
+
+logger = logging.getLogger("softkin")
+
+N_FOLDS = 5
+
+#: Calibration data whose calibration rows can be split again.
+Resplittable = PointCalibration | QuantileCalibration
+
+
+def nearest_level(confidence_levels: list[float]) -> float:
+    """The configured level nearest to the paper's: methods are compared at it."""
+    return min(confidence_levels, key=lambda level: abs(level - PAPERS_LEVEL))
+
+
+def shown_runs(choice: str | Path) -> set[Run]:
+    """The runs whose intervals are shown at length: the paper's, and those that were candidates."""
+    candidates = pd.read_csv(choice, dtype=str)
+    return {PAPERS_RUN, *map(Run, candidates["model"], candidates["preset"])}
+
+
+def deployed_choice(choice: str | Path) -> pd.Series | None:
+    """The row of a `choice` that the calibrated model has; None where no candidate is around a point model."""
+    candidates = pd.read_csv(choice)
+    around_model = candidates[candidates["deployed"]]
+    return None if around_model.empty else around_model.iloc[0]
+
+
+def choose(
+    outputs: StoredOutputs,
+    *,
+    methods: Mapping[str, IntervalMethod[Any]],
+    runs: Collection[Run],
+    seed: int,
+    regime: str,
+    choice: str | Path,
+) -> None:
+    """Write the `choice` (CSV: model, preset, interval_method, confidence_level, cv_winkler_mm, chosen, deployed,
+    outside), best first.
+
+    The best is `chosen`; `deployed` is the best around the prediction of a point model, which the calibrated model has:
+    a method on quantiles has regressors of its own. `outside` names the method that gives its intervals in
+    extrapolation: by the `regime` `auto` that of this name, where there are shells of this run, else the same.
+
+    Candidates are the in-domain methods with a marginal guarantee around one of `runs`, and those on quantiles. Each is
+    calibrated on four fifths of `validation` and scored on the rest, five times over: the mean Winkler score over
+    moving coordinates. Ties go to the method that comes first.
+
+    Raises:
+        ConfigError: no method is calibrated.
+    """
+    frame = pd.DataFrame(list(_scored_candidates(outputs, methods, runs, seed)))
+    if frame.empty:
+        raise ConfigError(
+            "no configured interval method is calibrated, so none can be chosen",
+            where="interval_methods",
+            fix="add scp_mapie to interval_methods",
+        )
+    frame = frame.sort_values("cv_winkler_mm", kind="stable", ignore_index=True)
+    frame["chosen"] = frame.index == 0
+    around_model = frame["interval_method"].map(lambda name: methods[name].calibrated_on.is_around_a_model)
+    frame["deployed"] = around_model & ~around_model.shift(fill_value=False).cummax()
+    shells = {run for run, _ in outputs.of(ShellCalibration)} if regime == AUTO and AUTO in methods else set()
+    has_shells = np.array([run in shells for run in zip(frame["model"], frame["preset"], strict=True)])
+    by_shells = frame["deployed"] & has_shells
+    frame["outside"] = frame["interval_method"].mask(by_shells, AUTO)
+    with replacing(choice) as temporary:
+        frame.to_csv(temporary, index=False)
+    best = frame.iloc[0]
+    if regime == AUTO and not by_shells.any():
+        logger.warning("intervals in extrapolation are as in-domain: no method `%s`, or no shells", AUTO)
+    logger.info("chosen: %s around %s %s", methods[best["interval_method"]].title, best["model"], best["preset"])
+
+
+def _scored_candidates(
+    outputs: StoredOutputs, methods: Mapping[str, IntervalMethod[Any]], runs: Collection[Run], seed: int
+) -> Iterator[dict[str, Any]]:
+    """A row per candidate, with its cross-validated score."""
+    level = nearest_level(outputs.levels)
+    moving = informative_coordinates(outputs.train.positions)
+    for name, method in methods.items():
+        # Methods for extrapolation are scored nowhere: no row of `validation` lies there.
+        if method.guarantee != MARGINAL or method.calibrated_on.is_for_extrapolation:
+            continue
+        for run, data in outputs.of(method.calibrated_on):
+            if method.calibrated_on.is_around_a_model and run not in runs:
+                continue
+            scores = []
+            for part, held_out in resplits(data, seed):
+                bounds = method.intervals(part, outputs.levels)[outputs.levels.index(level)]
+                scores.append(winkler_scores(data.truth[held_out], bounds, level)[:, moving].mean(axis=1))
+            yield {
+                "model": run.model,
+                "preset": run.preset,
+                "interval_method": name,
+                "confidence_level": level,
+                "cv_winkler_mm": float(np.concatenate(scores).mean()),
+            }
+
+
+def resplits(data: Resplittable, seed: int) -> Iterator[tuple[Resplittable, NDArray[np.intp]]]:
+    """The calibration rows split again: data calibrated on most of them, whose `new` rows are the held-out ones."""
+    splitter = KFold(N_FOLDS, shuffle=True, random_state=seed)
+    for calibration_rows, held_out in splitter.split(data.truth):
+        yield data.resplit(calibration_rows, held_out), held_out

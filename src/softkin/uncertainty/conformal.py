@@ -1,0 +1,172 @@
+"""What every conformal method needs: the exact rank, and a level that no engine can round wrongly."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from fractions import Fraction
+
+import numpy as np
+
+from softkin.core.samples import Array
+from softkin.uncertainty.calibration_data import PointCalibration
+
+#: Smallest difficulty, mm: far below any robot's errors.
+TINY = 1e-12
+
+
+def conformal_rank(n_calibration: int, confidence_level: float) -> int | None:
+    """K = ceil(confidence_level (n + 1)), the rank of the score that bounds a new one, in exact arithmetic.
+
+    The level is taken as written in decimals (0.9 is nine tenths). None when k > n: no finite interval has the level.
+    Source: Vovk, Gammerman and Shafer (2005); Lei et al. (2018), section 2.2.
+    """
+    rank = math.ceil(Fraction(str(confidence_level)) * (n_calibration + 1))
+    return rank if rank <= n_calibration else None
+
+
+def conformal_limit(scores: Array, confidence_level: float) -> float:
+    """The score (of n) that bounds a new one at the level; infinite when n is too small."""
+    rank = conformal_rank(len(scores), confidence_level)
+    return float("inf") if rank is None else float(np.sort(scores)[rank - 1])
+
+
+def conformal_limits(scores: Array, confidence_levels: Sequence[float]) -> Array:
+    """As `conformal_limit`, for each level and column of scores (n_rows, n_columns): (n_levels, n_columns)."""
+    return np.array([[conformal_limit(mine, level) for mine in scores.T] for level in confidence_levels])
+
+
+def weighted_limits(scores: Array, weights: Array, own: Array, confidence_levels: Sequence[float]) -> Array:
+    """Scores that bound new ones at each level where calibration rows count unequally: (n_levels, n_new, n_columns).
+
+    The weighted quantile of scores (n_rows, n_columns) with weights (n_rows,) and of infinity with the new row's `own`
+    weight (n_new,); infinite where the new row outweighs the rest.
+    Source: Tibshirani, Barber, Candes and Ramdas (2019), equation 6; Barber et al. (2023), equation 11.
+    """
+    order = np.argsort(scores, axis=0)
+    ordered = np.vstack([np.take_along_axis(scores, order, axis=0), np.full(scores.shape[1], np.inf)])
+    sums = np.cumsum(weights[order], axis=0)
+    wanted = np.outer(confidence_levels, weights.sum() + own) * (1 - 1e-12)  # a sum that just suffices does
+    places = [np.searchsorted(mine, wanted) for mine in sums.T]
+    return np.stack([mine[place] for mine, place in zip(ordered.T, places, strict=True)], axis=-1)
+
+
+def around(predicted: Array, half_widths: Array) -> Array:
+    """Intervals (n_levels, n_rows, n_coordinates, 2) around predictions (n_rows, n_coordinates)."""
+    return np.stack([predicted - half_widths, predicted + half_widths], axis=-1)
+
+
+def error_scale(train_errors: Array) -> Array:
+    """Typical size (n_columns,) of the errors on `train`: their 90 % quantile, which a few failed rows cannot move.
+
+    A model that repeats `train` exactly has none; then all columns count alike.
+    """
+    typical = np.quantile(train_errors, 0.9, axis=0)
+    largest = float(typical.max())
+    return np.maximum(typical, 1e-6 * largest) if largest > 0 else np.ones(train_errors.shape[1])
+
+
+def joint_scores(residuals: Array, scale: Array) -> Array:
+    """Nonconformity of a whole pose (n_rows,): its largest residual (n_rows, n_coordinates) in units of a scale."""
+    return np.asarray((np.abs(residuals) / scale).max(axis=1))
+
+
+def two_sided_rank(n_calibration: int, confidence_level: float) -> int | None:
+    """The rank of an interval that leaves out alpha/2 on either side: of n + 1 places those between the two bounds.
+
+    None when either bound is infinite.
+    """
+    side = conformal_rank(n_calibration, round((1 + confidence_level) / 2, 12))
+    return None if side is None else 2 * side - (n_calibration + 1)
+
+
+def p_values(calibration_scores: Array, scores: Array, *, rng: np.random.Generator | None = None) -> Array:
+    """Conformal p-values of nonconformity `scores` (n_rows, ...) against those of the calibration set (n, ...).
+
+    The paper's Eq. 4: (number of calibration scores that are at least as large + 1) / (n + 1). With `rng` smoothed:
+    scores that are equal count with a uniform random share, so that p-values are exactly uniform (Vovk, Gammerman
+    and Shafer 2005, section 2.2).
+    """
+    ordered = np.sort(calibration_scores, axis=0)
+    n = len(ordered)
+    flat, flat_scores = ordered.reshape(n, -1), scores.reshape(len(scores), -1)
+    pairs = list(zip(flat.T, flat_scores.T, strict=True))
+    at_least = n - np.column_stack([np.searchsorted(mine, new, side="left") for mine, new in pairs])
+    if rng is None:
+        return np.asarray((at_least + 1) / (n + 1)).reshape(scores.shape)
+    above = n - np.column_stack([np.searchsorted(mine, new, side="right") for mine, new in pairs])
+    share = rng.uniform(size=above.shape)
+    return np.asarray((above + share * (at_least - above + 1)) / (n + 1)).reshape(scores.shape)
+
+
+def unbounded(n_levels: int, shape: tuple[int, ...]) -> Array:
+    """Intervals (n_levels, *shape, 2) from minus to plus infinity, to be filled where the calibration set suffices."""
+    result = np.empty((n_levels, *shape, 2))
+    result[..., 0], result[..., 1] = -np.inf, np.inf
+    return result
+
+
+def engine_level(n_calibration: int, rank: int) -> float:
+    """A confidence level in the middle of all those with this rank, (k - 1/2) / (n + 1).
+
+    Handed to an engine instead of the nominal one, its own arithmetic cannot fall on the wrong side of an integer.
+    """
+    return (rank - 0.5) / (n_calibration + 1)
+
+
+def columns(array: Array) -> list[Array]:
+    """The coordinates of (n_rows, n_coordinates) one by one: the engines are 1-D.
+
+    Raises:
+        ValueError: not a 2-D array.
+    """
+    if array.ndim != 2:
+        raise ValueError(f"expected (n_rows, n_coordinates), got an array of shape {array.shape}")
+    return list(array.T)
+
+
+def uncrossed(quantiles: Array) -> Array:
+    """Quantiles (..., 2) with lower and upper in order: where two predicted quantiles cross, they are exchanged."""
+    return np.sort(quantiles, axis=-1)
+
+
+def closed(intervals: Array) -> Array:
+    """Intervals (..., 2) with an empty one, lower above upper, closed to its middle."""
+    result = intervals.copy()
+    empty = intervals[..., 0] > intervals[..., 1]
+    result[empty] = intervals[empty].mean(axis=-1, keepdims=True)
+    return result
+
+
+def normalised_intervals(
+    data: PointCalibration, confidence_levels: Sequence[float], calibration_difficulty: Array, new_difficulty: Array
+) -> Array:
+    """Split conformal intervals whose half-width is proportional to a difficulty (n_rows, n_coordinates) above 0.
+
+    One coordinate at a time by crepes.ConformalRegressor; infinite where the calibration set is too small.
+    """
+    from crepes import ConformalRegressor
+
+    n = len(data.truth)
+    result = unbounded(len(confidence_levels), data.new.shape)
+    for coordinate, residuals in enumerate(columns(data.truth - data.calibration)):
+        # A coordinate that never moves has no spread and no residuals: any difficulty will do.
+        known, new = (np.maximum(d[:, coordinate], TINY) for d in (calibration_difficulty, new_difficulty))
+        regressor = ConformalRegressor().fit(residuals, sigmas=known)
+        for place, level in enumerate(confidence_levels):
+            rank = conformal_rank(n, level)
+            if rank is not None:
+                bounds = regressor.predict_int(data.new[:, coordinate], sigmas=new, confidence=engine_level(n, rank))
+                result[place, :, coordinate] = bounds
+    return result
+
+
+@contextmanager
+def global_random_state_kept() -> Iterator[None]:
+    """Leave numpy's global random state as it was: engines seed it."""
+    state = np.random.get_state()
+    try:
+        yield
+    finally:
+        np.random.set_state(state)

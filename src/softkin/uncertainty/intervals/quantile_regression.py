@@ -1,0 +1,21 @@
+"""Quantile regression: the interval between two predicted quantiles, with nothing to correct it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from softkin.core.samples import Array
+from softkin.uncertainty.calibration_data import QuantileCalibration
+from softkin.uncertainty.conformal import uncrossed
+from softkin.uncertainty.intervals.spec import NO_GUARANTEE, IntervalMethod
+
+
+def intervals(data: QuantileCalibration, confidence_levels: Sequence[float]) -> Array:
+    """The predicted quantiles at alpha/2 and 1 - alpha/2 of each level; where they cross, in order.
+
+    Each quantile is learnt by itself, so an interval of a wider level need not contain that of a narrower one.
+    """
+    return uncrossed(data.new)
+
+
+METHOD = IntervalMethod("qr", "QR", calibrated_on=QuantileCalibration, guarantee=NO_GUARANTEE, intervals=intervals)

@@ -1,0 +1,34 @@
+"""Normalised split conformal prediction: wider where the model itself is unsure."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from softkin.core.samples import Array
+from softkin.uncertainty.calibration_data import SpreadCalibration
+from softkin.uncertainty.conformal import conformal_rank, normalised_intervals
+from softkin.uncertainty.intervals.spec import MARGINAL, IntervalMethod
+
+#: Added to every spread, as a share of its mean over `train`: a forest's trees may agree by chance.
+LEAST_SHARE = 0.1
+
+
+def intervals(data: SpreadCalibration, confidence_levels: Sequence[float]) -> Array:
+    """Half-width proportional to the model's own spread: of a forest's trees, of a Gaussian process' posterior, of a
+    network's last layer.
+
+    So calibrated, the interval of a Gaussian process or a Bayesian network covers what it says.
+    Source: Lei et al. (2018), section 5.2; crepes.ConformalRegressor with `sigmas`.
+    """
+    least = LEAST_SHARE * data.train_spread.mean(axis=0)
+    return normalised_intervals(data, confidence_levels, data.calibration_spread + least, data.new_spread + least)
+
+
+METHOD = IntervalMethod(
+    "scp_spread",
+    "SCP, by spread",
+    calibrated_on=SpreadCalibration,
+    guarantee=MARGINAL,
+    intervals=intervals,
+    rank=conformal_rank,
+)

@@ -1,0 +1,167 @@
+"""Stored outputs of a dataset's models, read as the calibration data that interval methods need."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from softkin.core.bounds import read_bounds
+from softkin.core.run_archive import RunArchive, read_run_archive
+from softkin.core.runs import Run
+from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, VALIDATION, Array, Samples
+from softkin.core.shells import CommandNorm
+from softkin.data.table import read_subset
+from softkin.training.predict import SPREAD, STANDARD_DEVIATION
+from softkin.training.refit import FOLD_OF_ROW, FOLDS, RESAMPLE_ROWS, RESAMPLES
+from softkin.training.refit_shells import CENTRE, SCALE, core_rows, shell_rows
+from softkin.uncertainty.calibration_data import (
+    FoldCalibration,
+    PointCalibration,
+    PredictiveCalibration,
+    QuantileCalibration,
+    ResampleCalibration,
+    Shell,
+    ShellCalibration,
+    SpreadCalibration,
+)
+from softkin.uncertainty.intervals.spec import Data
+
+#: The subsets that get intervals; the `new` rows of calibration data are theirs, in this order.
+INTERVAL_SUBSETS = (TEST, EXTRAPOLATION)
+
+
+class StoredOutputs:
+    """Stored outputs of one dataset: `predictions` and `quantiles` are run -> file, `refits` and `shells` one file
+    each, or None.
+
+    Of `table` the true positions of `train` and `validation` are read, and commands.
+    """
+
+    def __init__(
+        self,
+        table: str | Path,
+        *,
+        predictions: Mapping[Run, str | Path],
+        quantiles: Mapping[Run, str | Path],
+        refits: str | Path | None,
+        confidence_levels: Sequence[float],
+        shells: str | Path | None = None,
+    ) -> None:
+        self.train = read_subset(table, TRAIN)
+        self.validation = read_subset(table, VALIDATION)
+        self.new_commands = {subset: read_subset(table, subset).commands for subset in INTERVAL_SUBSETS}
+        self.levels = list(confidence_levels)
+        self.predictions = {run: pd.read_parquet(path) for run, path in predictions.items()}
+        self.quantiles = {run: pd.read_parquet(path) for run, path in quantiles.items()}
+        self.refits, self.shells = read_run_archive(refits), read_run_archive(shells)
+
+    def of(self, kind: type[Data]) -> Iterator[tuple[Run, Data]]:
+        """Every run that has stored outputs of this kind, with its calibration data."""
+        readers: dict[type[Any], Callable[[], Iterator[tuple[Run, Any]]]] = {
+            PointCalibration: self._points,
+            SpreadCalibration: lambda: self._spreads(SpreadCalibration, STANDARD_DEVIATION, SPREAD),
+            PredictiveCalibration: lambda: self._spreads(PredictiveCalibration, STANDARD_DEVIATION),
+            QuantileCalibration: self._quantiles,
+            FoldCalibration: self._folds,
+            ResampleCalibration: self._resamples,
+            ShellCalibration: self._shells,
+        }
+        return readers[kind]()
+
+    def by_subset(self, rows: Array, axis: int = 0) -> dict[str, Array]:
+        """An array over the `new` rows, taken apart into test and extrapolation."""
+        sizes = [len(self.new_commands[subset]) for subset in INTERVAL_SUBSETS]
+        return dict(zip(INTERVAL_SUBSETS, np.split(rows, np.cumsum(sizes)[:-1], axis=axis), strict=True))
+
+    def _points(self) -> Iterator[tuple[Run, PointCalibration]]:
+        for run in self.predictions:
+            yield run, PointCalibration(**self._predicted(run))
+
+    def _spreads(self, kind: type[SpreadCalibration], *prefixes: str) -> Iterator[tuple[Run, SpreadCalibration]]:
+        for run, stored in self.predictions.items():
+            prefix = next((prefix for prefix in prefixes if f"{prefix}m1_x" in stored), None)
+            if prefix is not None:
+                yield (
+                    run,
+                    kind(
+                        **self._predicted(run),
+                        train_spread=predicted_rows(stored, [TRAIN], prefix),
+                        calibration_spread=predicted_rows(stored, [VALIDATION], prefix),
+                        new_spread=predicted_rows(stored, INTERVAL_SUBSETS, prefix),
+                    ),
+                )
+
+    def _predicted(self, run: Run) -> dict[str, Array]:
+        stored = self.predictions[run]
+        return {
+            "calibration": predicted_rows(stored, [VALIDATION]),
+            "truth": self.validation.positions,
+            "new": predicted_rows(stored, INTERVAL_SUBSETS),
+            "train_commands": self.train.commands,
+            "calibration_commands": self.validation.commands,
+            "new_commands": np.concatenate(list(self.new_commands.values())),
+        }
+
+    def _quantiles(self) -> Iterator[tuple[Run, QuantileCalibration]]:
+        for run, stored in self.quantiles.items():
+            calibration = read_bounds(stored, VALIDATION, self.levels)
+            new = [read_bounds(stored, subset, self.levels) for subset in INTERVAL_SUBSETS]
+            yield run, QuantileCalibration(calibration, self.validation.positions, np.concatenate(new, axis=1))
+
+    def _folds(self) -> Iterator[tuple[Run, FoldCalibration]]:
+        if self.refits.of_runs:
+            fold_of_row = self.refits.shared[FOLD_OF_ROW]
+            fitted_rows = [np.flatnonzero(fold_of_row != fold) for fold in range(int(fold_of_row.max()) + 1)]
+            for run, train, new in self._refitted(FOLDS):
+                yield run, FoldCalibration(fitted_rows, train, self.train.positions, new)
+
+    def _resamples(self) -> Iterator[tuple[Run, ResampleCalibration]]:
+        for run, train, new in self._refitted(RESAMPLES):
+            fitted_rows = list(self.refits.shared[RESAMPLE_ROWS])
+            yield run, ResampleCalibration(fitted_rows, train, self.train.positions, new)
+
+    def _refitted(self, wanted: str) -> Iterator[tuple[Run, Array, Array]]:
+        for (run, part), predicted in self.refits.of_runs.items():
+            if part == wanted:
+                yield run, predicted[:, : len(self.train)], predicted[:, len(self.train) :]
+
+    def _shells(self) -> Iterator[tuple[Run, ShellCalibration]]:
+        for run, shells in shells_of(self.shells, self.train).items():
+            yield run, ShellCalibration(PointCalibration(**self._predicted(run)), shells, norm_of(self.shells))
+
+
+def stored_outputs(files: Any, params: Any) -> StoredOutputs:
+    """The stored outputs that the inputs `files` and the `params` of an interval rule name."""
+    return StoredOutputs(
+        files.table,
+        predictions=dict(zip([Run(*run) for run in params.runs], files.predictions, strict=True)),
+        quantiles=dict(zip([Run(*run) for run in params.quantile_runs], files.quantiles, strict=True)),
+        refits=next(iter(files.refits), None),
+        shells=next(iter(files.shells), None),
+        confidence_levels=params.confidence_levels,
+    )
+
+
+def shells_of(archive: RunArchive, train: Samples) -> dict[Run, list[Shell]]:
+    """The shells of each run in an archive of `refit_shells`, the smallest core first."""
+    shells: dict[Run, list[Shell]] = {}
+    for (run, place), predicted in archive.of_runs.items():
+        core, shell = archive.shared[core_rows(place)], archive.shared[shell_rows(place)]
+        commands, truth = train.commands, train.positions
+        shells.setdefault(run, []).append(Shell(commands[core], commands[shell], predicted, truth[shell]))
+    return shells
+
+
+def norm_of(archive: RunArchive) -> Callable[[Array], Array]:
+    """How far out commands (n_rows, n_commands) lie (n_rows,), by an archive of `refit_shells`."""
+    return CommandNorm(archive.shared[CENTRE], archive.shared[SCALE]).of
+
+
+def predicted_rows(stored: pd.DataFrame, subsets: Sequence[str], prefix: str = "") -> Array:
+    """Predicted positions, or spreads with a `prefix`, (n_rows, n_coordinates), subset by subset."""
+    parts = [stored[stored["subset"] == subset].filter(regex=rf"^{prefix}m\d+_[xyz]$") for subset in subsets]
+    return np.concatenate([part.to_numpy() for part in parts])

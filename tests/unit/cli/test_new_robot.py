@@ -1,0 +1,198 @@
+from __future__ import annotations
+
+import io
+import shutil
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+import yaml
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from softkin.cli.new_robot import main
+from softkin.core.configuration import check_configuration
+from softkin.data.readers import READERS
+from softkin.data.standins import STANDINS
+from softkin.models import MODELS
+from softkin.models.quantile import QUANTILE_MODELS
+from softkin.uncertainty.intervals import INTERVAL_METHODS
+from softkin.uncertainty.regions import REGION_METHODS
+from tests.conftest import HOUSE, bending_arm
+
+SIZE = 200
+
+
+@pytest.fixture
+def house(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    (tmp_path / "config").mkdir()
+    for name in ("config.yaml", "datasets.yaml"):
+        shutil.copy(HOUSE / "config" / name, tmp_path / "config" / name)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def columns(*names: str, scale: float = 1.0) -> pd.DataFrame:
+    """A table of the names: of commands where they start with u, p or f, of times for t, else of positions."""
+    arm = bending_arm(SIZE, n_commands=3, n_markers=4)
+    values = iter([*arm.positions.T[3:]])
+    commands = iter([*arm.commands.T])
+    return pd.DataFrame(
+        {name: next(commands) if name[0] in "upf" else next(values) * scale for name in names}, index=range(SIZE)
+    )
+
+
+def guess(capsys: pytest.CaptureFixture[str], table: pd.DataFrame, *options: str) -> dict[str, Any]:
+    table.to_csv("Soft Arm-1.csv", index=False)
+    assert main(["Soft Arm-1.csv", *options]) == 0
+    entries: dict[str, dict[str, Any]] = yaml.safe_load(capsys.readouterr().out)
+    return next(iter(entries.values()))
+
+
+@pytest.mark.parametrize(
+    ("table", "expected"),
+    [
+        (columns("u1", "u2", "x", "y", "z"), {"commands": ["u1", "u2"], "positions": ["x", "y", "z"]}),
+        (columns("p1_bar", "p2_bar", "a_x", "b_x", "a_y", "b_y", "a_z", "b_z"),
+         {"commands": ["p1_bar", "p2_bar"], "positions": ["a_x", "a_y", "a_z", "b_x", "b_y", "b_z"]}),
+        (columns("u1", "u2", "x", "y"), {"positions": ["x", "y"], "dimensions": 2}),
+        (columns("u_x", "u_y", "x", "y"), {"commands": ["u_x", "u_y"], "positions": ["x", "y"], "dimensions": 2}),
+        (columns("u1", "tip_x", "tip_z"), {"positions": ["tip_x", "tip_z"], "dimensions": 2}),
+        (columns("p_x", "p_y", "p_z").assign(left=columns("u1")), {"commands": ["left"]}),
+        (columns("u1", "x", "y", "z", scale=1e-3), {"position_unit": "m"}),
+        (columns("u1", "x", "y", "z"), {"position_unit": "mm", "split": {"method": "random"}}),
+        (columns("u1", "x [cm]", "y [cm]", "z [cm]"), {"position_unit": "cm"}),
+        (columns("u1", "u2", "x", "y", "z").assign(time=np.arange(SIZE) / 50.0),
+         {"split": {"method": "time", "column": "time"}, "commands": ["u1", "u2"]}),
+        (columns("u1", "x", "y", "z").assign(Trial=np.arange(SIZE) // 10, t=1.0),
+         {"split": {"method": "group", "column": "Trial"}}),
+        (columns("u1", "x", "y", "z").assign(subset=["train", "val", "test", "ext"] * (SIZE // 4)),
+         {"split": {"method": "column", "column": "subset"}}),
+        (columns("u1", "x", "y", "z").assign(qx=1.0, yaw=2.0, frame=3, rot_x=1, rot_y=2, rot_z=3),
+         {"commands": ["u1"], "positions": ["x", "y", "z"]}),
+    ],
+)  # fmt: skip
+def test_columns_units_and_split_are_guessed(
+    house: Path, capsys: pytest.CaptureFixture[str], table: pd.DataFrame, expected: dict[str, Any]
+) -> None:
+    entry = guess(capsys, table)
+    assert {key: entry.get(key) for key in expected} == expected
+    assert entry["title"] == "Soft arm 1"
+    assert entry["file"] == "Soft Arm-1.csv"
+    assert (house / "config" / "datasets.yaml").read_bytes() == (HOUSE / "config" / "datasets.yaml").read_bytes()
+
+
+def test_write_appends_and_keeps_every_letter_before(house: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    datasets = house / "config" / "datasets.yaml"
+    before = datasets.read_text()
+    entry = guess(capsys, columns("u1", "u2", "x", "y", "z"), "--write", "--name", "my_arm")
+    after = datasets.read_text()
+    assert after.startswith(before)
+    assert yaml.safe_load(after)["sources"] == yaml.safe_load(before)["sources"] | {"my_arm": entry}
+    config = yaml.safe_load((house / "config" / "config.yaml").read_text()) | yaml.safe_load(after)
+    registries: dict[str, Any] = {"models": MODELS, "formats": READERS, "interval_methods": INTERVAL_METHODS}
+    registries |= {"quantile_models": QUANTILE_MODELS, "regions": REGION_METHODS, "standins": STANDINS}
+    schema = HOUSE / "workflow" / "schemas" / "config.schema.yaml"
+    check_configuration(
+        config | {"datasets": ["my_arm"]},
+        schema,
+        registries,
+    )
+
+
+def test_it_says_what_to_add_to_the_configuration(house: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    columns("u1", "x", "y", "z").to_parquet(house / "arm.parquet")
+    assert main(["arm.parquet", "--write"]) == 0
+    said = capsys.readouterr().err
+    datasets = yaml.safe_load((house / "config" / "config.yaml").read_text())["datasets"]
+    assert f"datasets: [{', '.join([*datasets, 'arm'])}]" in said
+    assert "train 112, validation 14, test 14, extrapolation 60" in said
+    assert main(["arm.parquet"]) == 0
+    assert "--write" in capsys.readouterr().err
+
+
+def test_a_file_elsewhere_is_named_in_full(
+    tmp_path_factory: pytest.TempPathFactory, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path_factory.mktemp("elsewhere") / "arm.csv"
+    columns("u1", "x", "y", "z").to_csv(path, index=False)
+    assert main([str(path)]) == 0
+    assert yaml.safe_load(capsys.readouterr().out)["arm"]["file"] == str(path)
+
+
+def complaint(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
+    assert main(arguments) == 2
+    said = capsys.readouterr().err
+    assert "Traceback" not in said
+    assert "mend" in said
+    return said
+
+
+@pytest.mark.parametrize(
+    ("content", "says"),
+    [
+        ("", "the file is empty"),
+        ("u1,x,y,z\n", "a header, but no row"),
+        ("1,2,3,4\n", "no header"),
+        ("u1,x,y,z\n1,2,3,a\n", "line 2, column 'z': no number: 'a'"),
+        ("u1,x,y,z\n1,2,3,4\n", "1 distinct commands"),
+        ("u1,a,b\n1,2,3\n", "no columns look like positions: u1, a, b"),
+        ("t,x,y,z\n1,2,3,4\n", "no column looks like a command: t, x, y, z"),
+        ("u1,x_m,y_mm,z_mm\n1,2,3,4\n", "positions in different units"),
+    ],
+)
+def test_a_bad_file_ends_with_a_message_and_status_2(
+    house: Path, capsys: pytest.CaptureFixture[str], content: str, says: str
+) -> None:
+    (house / "arm.csv").write_text(content)
+    assert says in complaint(capsys, "arm.csv", "--write")
+    assert (house / "config" / "datasets.yaml").read_bytes() == (HOUSE / "config" / "datasets.yaml").read_bytes()
+
+
+def test_bad_arguments_and_files_of_datasets_are_told(house: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    columns("u1", "x", "y", "z").to_csv("1st.csv", index=False)
+    datasets = house / "config" / "datasets.yaml"
+    assert "no such file: ''" in complaint(capsys, "")
+    assert "no such file: 'config'" in complaint(capsys, "config")
+    assert "'1st' is no name" in complaint(capsys, "1st.csv")
+    assert "'A b' is no name" in complaint(capsys, "1st.csv", "--name", "A b")
+    assert "has an entry 'finger' already" in complaint(capsys, "1st.csv", "--name", "finger", "--write")
+    for content, says in (
+        ("sources:\n  a: {title: A}\nlast: 1\n", "`sources` is not its last key"),
+        ("sources:\n  a: {title: A}\nlast:\n  b: 1\n", "`sources` is not its last key"),
+        ("sources:\n    a: {title: A}\n", "not indented by two"),
+        ("sources: [\n", "no YAML with the key `sources`"),
+        ("sources:\n", "`sources` is no dict"),
+    ):
+        datasets.write_text(content)
+        assert says in complaint(capsys, "1st.csv", "--name", "arm", "--write")
+        assert datasets.read_text() == content
+    with pytest.raises(SystemExit) as stop:
+        main([])
+    assert stop.value.code == 2
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(header=st.lists(st.text("uxyztm_1 ,;'\"#:[]\n", max_size=4), min_size=1, max_size=6), rows=st.integers(0, 30))
+def test_any_header_gives_an_entry_or_a_message(house: Path, header: list[str], rows: int) -> None:
+    rng = np.random.default_rng(rows)
+    pd.DataFrame(rng.normal(size=(rows, len(header))), columns=header).to_csv(house / "arm.csv", index=False)
+    assert main(["arm.csv"]) in (0, 2)
+
+
+def test_it_tells_where_it_is_told_to_even_the_second_time(
+    house: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A handler that outlives its call would write to a stream that is closed by then."""
+    assert house
+    with io.StringIO() as first, monkeypatch.context() as patched:
+        patched.setattr("sys.stderr", first)
+        guess(capsys, columns("u1", "u2", "x", "y", "z"))
+        assert "INFO: read as utf-8" in first.getvalue()
+    columns("u1", "u2", "x", "y", "z").to_csv("Soft Arm-1.csv", index=False)
+    assert main(["Soft Arm-1.csv"]) == 0
+    told = capsys.readouterr().err
+    assert "INFO: read as utf-8" in told
+    assert "Logging error" not in told

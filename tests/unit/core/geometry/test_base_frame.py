@@ -1,0 +1,110 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+from softkin.core.geometry.base_frame import BaseFrame, base_frame
+from softkin.core.geometry.constant_curvature import from_arcs
+
+
+def unit(vector: list[float]) -> np.ndarray:
+    return np.array(vector) / np.linalg.norm(vector)
+
+
+def bent(
+    frame: BaseFrame, *, n_markers: int = 1, n_rows: int = 200, noise: float = 0.0
+) -> tuple[np.ndarray, np.ndarray]:
+    """Commands and markers of a robot that bends in arcs, in proportion to its commands; 100 mm long."""
+    rng = np.random.default_rng(1)
+    commands = rng.uniform(-1, 1, (n_rows, 2))
+    share = np.arange(1, n_markers + 1) / n_markers
+    arcs = np.stack(
+        [
+            np.outer(1.4 * commands[:, 0], share),
+            np.outer(0.9 * commands[:, 1], share),
+            np.tile(100 * share, (n_rows, 1)),
+        ],
+        axis=-1,
+    )
+    points = frame.from_base(from_arcs(arcs))
+    return commands, points + noise * rng.standard_normal(points.shape)
+
+
+vectors = st.lists(st.floats(-1, 1), min_size=3, max_size=3).filter(lambda v: np.linalg.norm(v) > 0.1)
+
+
+@given(vectors, vectors)
+@example([0.0, 0.0, 1.0], [0.0, 7.8e-162, -1.0])
+def test_points_come_back_from_the_frame_of_the_base(origin: list[float], axis: list[float]) -> None:
+    frame = BaseFrame(np.array(origin), unit(axis))
+    points = np.random.default_rng(0).uniform(-50, 50, (6, 2, 3))
+    np.testing.assert_allclose(frame.from_base(frame.to_base(points)), points, atol=1e-12)
+    np.testing.assert_allclose(frame.to_base(frame.origin + 7 * frame.axis), [0, 0, 7], atol=1e-12)
+
+
+@pytest.mark.parametrize("axis", [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, -2.0, 0.5]])
+@pytest.mark.parametrize("n_markers", [1, 3])
+def test_origin_and_axis_are_found_where_nothing_is_declared(axis: list[float], n_markers: int) -> None:
+    true = BaseFrame(np.array([30.0, -400.0, 12.0]), unit(axis))
+    found = base_frame(*bent(true, n_markers=n_markers))
+    np.testing.assert_allclose(found.origin, true.origin, atol=1e-3)
+    np.testing.assert_allclose(found.axis, true.axis, atol=1e-5)
+
+
+def test_what_was_estimated_from_the_same_rows_is_remembered(monkeypatch: pytest.MonkeyPatch) -> None:
+    frames = [BaseFrame(np.array([1.0, 2.0, z]), unit([0.1, 0.0, 1.0])) for z in (3.0, 4.0)]
+    robots = [bent(frame, n_rows=90) for frame in frames]
+    found = [base_frame(*robot) for robot in robots]
+    assert found[0].origin[2] == pytest.approx(3.0, abs=1e-3)
+    assert found[1].origin[2] == pytest.approx(4.0, abs=1e-3)
+    monkeypatch.setattr("softkin.core.geometry.base_frame.least_squares", None)
+    for robot, frame in zip(robots, found, strict=True):
+        assert base_frame(*robot) == frame
+    with pytest.raises(TypeError):  # other rows are estimated anew
+        base_frame(robots[0][0][1:], robots[0][1][1:])
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_noise_and_some_gross_outliers_hardly_move_the_base(seed: int) -> None:
+    true = BaseFrame(np.array([5.0, 6.0, 7.0]), unit([0.3, 0.1, 1.0]))
+    commands, points = bent(true, noise=0.2)
+    outliers = np.random.default_rng(seed).choice(len(points), 6, replace=False)
+    points[outliers] += 40.0
+    found = base_frame(commands, points)
+    assert np.linalg.norm(found.origin - true.origin) < 4
+    assert found.axis @ true.axis > np.cos(0.05)
+
+
+def test_what_is_declared_stays_and_the_rest_is_estimated() -> None:
+    true = BaseFrame(np.array([0.0, 0.0, 25.0]), np.array([0.0, 0.0, 1.0]))
+    commands, points = bent(true)
+    depth = base_frame(commands, points, {"origin": [0.0, 0.0, None], "axis": [0.0, 0.0, 2.0]})
+    np.testing.assert_allclose(depth.origin, true.origin, atol=1e-4)
+    assert depth.origin[0] == 0
+    np.testing.assert_array_equal(depth.axis, true.axis)
+    whole = base_frame(commands, points, {"origin": [1.0, 2.0, 3.0], "axis": [0.0, 1.0, 0.0]})
+    np.testing.assert_array_equal(whole.origin, [1, 2, 3])
+
+
+def test_a_marker_that_never_moves_is_the_base() -> None:
+    true = BaseFrame(np.array([-36.0, -45.0, 0.0]), unit([0.1, 0.0, 1.0]))
+    commands, points = bent(true, n_markers=2)
+    resting = np.tile(true.origin, (len(points), 1, 1))
+    found = base_frame(commands, np.concatenate([resting, points], axis=1))
+    np.testing.assert_array_equal(found.origin, true.origin)
+    np.testing.assert_allclose(found.axis, true.axis, atol=1e-5)
+
+
+def test_a_planar_robot_has_its_base_in_its_plane() -> None:
+    rng = np.random.default_rng(0)
+    commands = rng.uniform(-1, 1, (100, 1))
+    arcs = np.stack([1.5 * commands, 0 * commands, 0 * commands + 60], axis=-1)
+    true = BaseFrame(np.array([4.0, -9.0, 0.0]), np.array([1.0, 0.0, 0.0]))
+    x, _, z = np.moveaxis(from_arcs(arcs), -1, 0)
+    points = np.stack([4 + z, -9 + x, 0 * x], axis=-1)
+    found = base_frame(commands, points)
+    np.testing.assert_allclose(found.origin, true.origin, atol=1e-3)
+    np.testing.assert_allclose(found.axis, true.axis, atol=1e-5)
+    assert found.origin[2] == found.axis[2] == 0

@@ -1,0 +1,60 @@
+from __future__ import annotations
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+
+from softkin.core.geometry.constant_curvature import MAX_BENDING, from_arcs, in_domain, spread_of_points, to_arcs
+
+lengths = st.floats(1e-3, 1e4)
+directions = st.floats(-np.pi, np.pi)
+#: Straight, nearly straight, bent past 180 degrees.
+bendings = st.one_of(st.just(0.0), st.floats(1e-12, 1e-6), st.floats(1e-6, MAX_BENDING))
+
+
+def arc(bending: float, direction: float, length: float) -> np.ndarray:
+    return np.array([[[bending * np.cos(direction), bending * np.sin(direction), length]]])
+
+
+@given(bendings, directions, lengths)
+def test_an_arc_comes_back_from_the_point_that_it_leads_to(bending: float, direction: float, length: float) -> None:
+    q = arc(bending, direction, length)
+    # Near a full turn the point lies close to the base: what is left of its digits decides.
+    np.testing.assert_allclose(to_arcs(from_arcs(q)), q, rtol=1e-9, atol=1e-9)
+
+
+@given(st.floats(-500, 500), st.floats(-500, 500), st.floats(-500, 500))
+def test_a_point_comes_back_from_its_arc(x: float, y: float, z: float) -> None:
+    points = np.array([[[x, y, z]]])
+    if in_domain(points).all():
+        np.testing.assert_allclose(from_arcs(to_arcs(points)), points, rtol=1e-9, atol=1e-9)
+
+
+@given(bendings.filter(lambda b: b > 0.01), directions, lengths)
+def test_an_arc_is_where_its_differential_equation_leads(bending: float, direction: float, length: float) -> None:
+    """The tangent turns steadily from z towards the direction of bending: integrated by the midpoint rule."""
+    steps = (np.arange(20_000) + 0.5) / 20_000
+    tangent = np.stack(
+        [
+            np.sin(bending * steps) * np.cos(direction),
+            np.sin(bending * steps) * np.sin(direction),
+            np.cos(bending * steps),
+        ]
+    )
+    np.testing.assert_allclose(
+        from_arcs(arc(bending, direction, length))[0, 0], length * tangent.mean(axis=1), atol=1e-7 * length
+    )
+
+
+def test_the_base_itself_and_what_lies_straight_behind_it_have_no_arc() -> None:
+    points = np.array([[[0.0, 0.0, 0.0]], [[0.0, 0.0, -3.0]], [[0.0, 1.0, -3.0]], [[0.0, 0.0, 3.0]]])
+    np.testing.assert_array_equal(in_domain(points)[:, 0], [False, False, True, True])
+
+
+def test_the_spread_of_points_is_that_of_a_cloud_of_arcs() -> None:
+    rng = np.random.default_rng(0)
+    for q in (arc(0.0, 0.0, 100.0), arc(1.2, 0.4, 80.0), arc(4.0, -2.0, 50.0)):
+        spread = np.array([[[0.002, 0.003, 0.1]]])
+        cloud = from_arcs(q + spread * rng.standard_normal((200_000, 1, 3)))[:, 0]
+        turned = np.linalg.qr(rng.standard_normal((3, 3)))[0]
+        np.testing.assert_allclose(spread_of_points(q, spread, turned)[0, 0], (cloud @ turned).std(axis=0), rtol=0.02)

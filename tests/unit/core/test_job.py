@@ -1,0 +1,65 @@
+from __future__ import annotations
+
+import logging
+import os
+import time
+from pathlib import Path
+
+import pytest
+
+from softkin.core.errors import SoftkinError
+from softkin.core.job import ON_A_SCREEN, job, stopwatch
+
+
+def test_bad_input_ends_with_its_message_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    log = tmp_path / "logs" / "job.log"
+    with pytest.raises(SystemExit) as end, job(str(log), "prepare finger"):
+        raise SoftkinError("row 7 is empty; mend: fill it")
+    assert end.value.code == 1
+    assert "row 7 is empty" in log.read_text()
+    printed = capsys.readouterr().err
+    assert printed == "prepare finger: row 7 is empty; mend: fill it\n"
+
+
+def test_our_own_defects_keep_their_traceback(tmp_path: Path) -> None:
+    with pytest.raises(ZeroDivisionError), job(str(tmp_path / "job.log"), "x"):
+        1 / 0  # noqa: B018
+    assert "Traceback" in (tmp_path / "job.log").read_text()
+
+
+def test_debug_goes_to_the_log_only(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with job(str(tmp_path / "job.log"), "tune"):
+        logging.getLogger("softkin").debug("trial 3")
+        logging.getLogger("softkin").info("half done")
+    assert capsys.readouterr().err == "tune: half done\n"
+    assert "trial 3" in (tmp_path / "job.log").read_text()
+
+
+def test_the_stopwatch_tells_waiting_from_working() -> None:
+    with stopwatch() as watch:
+        time.sleep(0.05)
+    assert watch.seconds >= 0.05
+    assert watch.cpu_seconds < 0.05
+
+
+def test_it_leaves_the_log_as_it_found_it(tmp_path: Path) -> None:
+    """A handler that outlives its job would write to streams that are closed by then."""
+    with job(str(tmp_path / "a.log"), "a"):
+        assert len(logging.getLogger("softkin").handlers) == 2
+    assert logging.getLogger("softkin").handlers == []
+    assert logging.getLogger("softkin").propagate
+    assert logging.getLogger("py.warnings").handlers == []
+
+
+def test_under_a_screen_everything_goes_to_the_log(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(ON_A_SCREEN, "1")
+    with job(str(tmp_path / "job.log"), "tune"):
+        logging.getLogger("softkin").info("half done")
+        os.system("echo a library wrote this")
+    assert capfd.readouterr() == ("", "")
+    assert "half done" in (tmp_path / "job.log").read_text()
+    assert "a library wrote this" in (tmp_path / "job.log").read_text()
+    os.system("echo afterwards")
+    assert capfd.readouterr().out == "afterwards\n"

@@ -1,0 +1,122 @@
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from softkin.core.errors import SoftkinError
+from softkin.data.readers.columns import axis_of, check, choose, marker_by_marker, unit_of
+
+NAMES = ["t", "u1", "u2", "m1_x", "m1_y", "m1_z", "m2_x", "m2_y", "m2_z", "note", "note"]
+
+
+@pytest.mark.parametrize(
+    ("name", "axis"),
+    [
+        ("x", ("", "x")),
+        ("m2_y", ("m2_", "y")),
+        ("z10", ("10", "z")),
+        ("Tip X", ("Tip ", "x")),
+        ("markerY [mm]", ("marker ", "y")),
+        ("pos.x_m", ("pos.", "x")),
+        ("max", None),
+        ("MAX", None),
+        ("extra", None),
+        ("qx", None),
+        ("xy", None),
+        ("x_y", None),
+        ("u1", None),
+    ],
+)
+def test_axes_are_read_off_names(name: str, axis: tuple[str, str] | None) -> None:
+    assert axis_of(name) == axis
+
+
+@pytest.mark.parametrize(
+    ("name", "unit"),
+    [("x_mm", "mm"), ("x [m]", "m"), ("x(cm)", "cm"), ("x.in", "in"), ("x m", "m"), ("x", None), ("arm", None)],
+)
+def test_units_are_read_off_names(name: str, unit: str | None) -> None:
+    assert unit_of(name) == unit
+
+
+@pytest.mark.parametrize(
+    ("wanted", "places"),
+    [
+        (["u2", "u1"], [2, 1]),
+        ([" u1 "], [1]),
+        ("u1", [1]),
+        ("u[0-9]+", [1, 2]),
+        ("m.*", [3, 4, 5, 6, 7, 8]),
+        ("(t|u2)", [0, 2]),
+    ],
+)
+def test_columns_are_chosen_by_name_or_pattern(wanted: Any, places: list[int]) -> None:
+    assert choose(NAMES, wanted, "commands") == places
+
+
+def test_a_name_with_signs_of_patterns_is_a_name_first() -> None:
+    assert choose(["p (bar)", "p"], "p (bar)", "commands") == [0]
+
+
+@pytest.mark.parametrize(
+    ("wanted", "says"),
+    [
+        (["u3"], ["no column 'u3'", "the columns are t, u1"]),
+        ("v[0-9]", ["'v[0-9]' matches no column whole", "the columns are t, u1"]),
+        ("u[0-9", ["'u[0-9' is no pattern"]),
+        (["note"], ["2 columns are named 'note' (columns 10, 11)", "give each its own name"]),
+        ("n.*", ["2 columns are named 'note'"]),
+    ],
+)
+def test_a_wrong_choice_is_told(wanted: Any, says: list[str]) -> None:
+    with pytest.raises(SoftkinError) as error:
+        choose(NAMES, wanted, "commands")
+    for part in ("`commands`", "mend", *says):
+        assert part in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("commands", "coordinates", "dimensions"),
+    [
+        (["u1"], ["x", "y", "z"], 3),
+        (["u1"], ["a", "b", "c"], 3),
+        (["u1"], ["x1", "x2", "x3"], 3),  # x for position
+        (["u1"], ["x1", "z1", "y1", "x2", "z2", "y2"], 3),  # a frame of one's own
+        (["u1"], ["x1", "y1", "x2", "y2", "x3", "y3"], 2),
+        ([f"u{place}" for place in range(64)], ["x", "z"], 2),
+    ],
+)
+def test_good_choices_pass(commands: list[str], coordinates: list[str], dimensions: int) -> None:
+    check(commands, coordinates, dimensions, {"n_commands": len(commands), "n_markers": len(coordinates) // dimensions})
+
+
+@pytest.mark.parametrize(
+    ("commands", "coordinates", "dimensions", "says"),
+    [
+        (["u1", "u1"], ["x", "y", "z"], 3, ["'u1' is chosen twice"]),
+        (["x"], ["x", "y", "z"], 3, ["'x' is chosen twice"]),
+        ([f"u{place}" for place in range(65)], ["x", "y", "z"], 3, ["65 columns, at most 64"]),
+        (["u1"], ["x", "y"], 3, ["2 columns (x, y), but 3 per marker", "dimensions: 2"]),
+        (["u1"], ["x1", "y1", "x2", "y2", "x3", "y3"], 3, ["name the axes x, y", "write dimensions: 2"]),
+        (["u1"], ["x1", "x2", "y1", "y2", "z1", "z2"], 3, ["x1, x2, y1 would be one", "[x1, y1, z1, x2, y2, z2]"]),
+        (["u1"], ["x1", "x2", "y1", "y2"], 2, ["x1, x2 would be one marker", "[x1, y1, x2, y2]"]),
+    ],
+)
+def test_columns_that_are_no_markers_are_told(
+    commands: list[str], coordinates: list[str], dimensions: int, says: list[str]
+) -> None:
+    with pytest.raises(SoftkinError) as error:
+        check(commands, coordinates, dimensions, {})
+    for part in ("mend", *says):
+        assert part in str(error.value)
+
+
+@pytest.mark.parametrize("key", ["n_commands", "n_markers"])
+def test_another_number_than_registered_is_told(key: str) -> None:
+    with pytest.raises(SoftkinError, match=f"`{key}` is 7, but the entry's columns make it 1"):
+        check(["u"], ["x", "y", "z"], 3, {key: 7})
+
+
+def test_marker_by_marker_keeps_the_order_of_markers() -> None:
+    assert marker_by_marker(["tip_z", "base_x", "tip_x", "base_z"]) == ["tip_x", "tip_z", "base_x", "base_z"]

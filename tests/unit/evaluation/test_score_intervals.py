@@ -1,0 +1,142 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from softkin.core.bounds import bounds_frame
+from softkin.core.errors import SoftkinError
+from softkin.data.table import read_subset
+from softkin.evaluation.score_intervals import score_intervals
+from softkin.uncertainty.intervals import INTERVAL_METHODS
+from softkin.uncertainty.intervals.spec import MARGINAL, NO_GUARANTEE
+from softkin.uncertainty.regions import REGION_METHODS
+from softkin.uncertainty.stored_outputs import StoredOutputs
+
+LEVELS = [0.8, 0.9]
+RUN = ("gb", "paper")
+COLUMNS = {
+    *("dataset", "subset", "model", "preset", "interval_method", "coordinate", "confidence_level", "coverage"),
+    *("coverage_low", "coverage_high", "coverage_p_value", "mean_width_mm", "winkler_mm", "n_calibration", "n_rows"),
+    *("infinite_share", "crossing_share"),
+}
+
+
+@pytest.fixture
+def metrics(table: Path, tmp_path: Path) -> pd.DataFrame:
+    """scp_mapie: 4 mm wide, the first 20 of 40 rows missed by 1 mm in x. qr: infinite; raw quantiles crossed in z."""
+    intervals, quantiles = [], []
+    for subset in ("test", "extrapolation"):
+        true = read_subset(table, subset).positions
+        centre = true.copy()
+        centre[:20, 0] += 3.0
+        for level in LEVELS:
+            frame = bounds_frame(np.stack([centre - 2, centre + 2], axis=-1), subset, level)
+            intervals.append(frame)
+            raw = np.stack([true - 1, true + 1], axis=-1)
+            raw[:, 2] = raw[:, 2, ::-1]
+            quantiles.append(bounds_frame(raw, subset, level))
+    files = {name: tmp_path / f"{name}.parquet" for name in ("scp_mapie", "qr", "quantiles")}
+    stored = pd.concat(intervals).assign(model="gb", preset="paper")
+    stored.to_parquet(files["scp_mapie"])
+    infinite = stored.copy()
+    infinite.loc[:, infinite.columns.str.startswith("lower")] = -np.inf
+    infinite.loc[:, infinite.columns.str.startswith("upper")] = np.inf
+    infinite.to_parquet(files["qr"])
+    predictions = pd.read_parquet(table).drop(columns=["u1", "u2"])
+    predictions.to_parquet(tmp_path / "predictions.parquet")
+    quantiles += [quantiles[0].assign(subset="validation", confidence_level=level) for level in LEVELS]
+    pd.concat(quantiles).to_parquet(files["quantiles"])
+    outputs = StoredOutputs(
+        table,
+        predictions={RUN: tmp_path / "predictions.parquet"},
+        quantiles={RUN: files["quantiles"]},
+        refits=None,
+        confidence_levels=LEVELS,
+    )
+    score_intervals(
+        table,
+        dataset="arm",
+        methods={name: INTERVAL_METHODS[name] for name in ("scp_mapie", "qr")},
+        intervals={name: files[name] for name in ("scp_mapie", "qr")},
+        regions={"joint_box": REGION_METHODS["joint_box"]},
+        outputs=outputs,
+        output=tmp_path / "metrics.csv",
+    )
+    return pd.read_csv(tmp_path / "metrics.csv")
+
+
+def rows(metrics: pd.DataFrame, **wanted: object) -> pd.DataFrame:
+    for column, value in wanted.items():
+        metrics = metrics[metrics[column] == value]
+    return metrics.set_index("coordinate")
+
+
+def test_a_row_for_each_coordinate_and_average(metrics: pd.DataFrame) -> None:
+    assert set(metrics.columns) >= COLUMNS
+    assert len(metrics) == 2 * 2 * (2 * 6 + 1)  # subsets, levels; two methods, one region
+    assert set(metrics["coordinate"]) == {"m1_x", "m1_y", "m1_z", "mean", "mean_informative", "joint"}
+    assert set(metrics["n_rows"]) == {40}
+    assert set(rows(metrics, interval_method="scp_mapie")["n_calibration"]) == {40}
+    assert set(rows(metrics, interval_method="qr")["n_calibration"]) == {0}
+    box = metrics[metrics["interval_method"] == "joint_box"]
+    assert set(box["coordinate"]) == {"joint"}
+
+
+def test_known_misses_are_scored(metrics: pd.DataFrame) -> None:
+    mine = rows(metrics, interval_method="scp_mapie", subset="test", confidence_level=0.9)
+    assert mine.loc["m1_x", "coverage"] == 0.5
+    assert mine.loc["m1_x", "winkler_mm"] == pytest.approx(4 + 0.5 * 20 * 1)
+    assert mine.loc["m1_y", ["coverage", "winkler_mm"]].tolist() == pytest.approx([1.0, 4.0])
+    assert mine.loc["mean", "coverage"] == pytest.approx((0.5 + 1 + 1) / 3)
+    assert mine.loc["joint", "coverage"] == 0.5
+    assert mine.loc["m1_x", "coverage_p_value"] < mine.loc["m1_y", "coverage_p_value"]
+    assert mine.loc["m1_x", "coverage"] < mine.loc["m1_x", "coverage_low"]
+    assert (mine["coverage_p_value_holm"].dropna() >= mine["coverage_p_value"].dropna()).all()
+
+
+def test_outside_the_calibrated_range_nothing_is_promised(metrics: pd.DataFrame) -> None:
+    far = rows(metrics, interval_method="scp_mapie", subset="extrapolation", confidence_level=0.9)
+    assert set(far["guarantee"]) == {NO_GUARANTEE}
+    assert far["coverage_p_value"].isna().all()
+    assert far.loc["m1_x", "coverage_low"] < 0.5 < far.loc["m1_x", "coverage_high"]
+    near = rows(metrics, interval_method="scp_mapie", subset="test", confidence_level=0.9)
+    assert near.loc["m1_x", "guarantee"] == MARGINAL
+    raw = rows(metrics, interval_method="qr", subset="test", confidence_level=0.9)
+    assert set(raw["guarantee"]) == {NO_GUARANTEE}
+
+
+def test_infinite_intervals_and_crossings_are_counted(metrics: pd.DataFrame) -> None:
+    mine = rows(metrics, interval_method="qr", subset="test", confidence_level=0.9)
+    assert set(mine["infinite_share"]) == {1.0}
+    assert np.isinf(mine.loc["mean", "mean_width_mm"])
+    assert mine.loc[["m1_x", "m1_y", "m1_z"], "crossing_share"].tolist() == [0.0, 0.0, 1.0]
+    assert mine.loc["joint", "crossing_share"] == 1.0
+    assert set(rows(metrics, interval_method="scp_mapie")["crossing_share"]) == {0.0}
+
+
+def test_a_winkler_score_below_twice_the_mean_absolute_error_stops_the_run(
+    table: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, metrics: pd.DataFrame
+) -> None:
+    assert len(metrics)
+    monkeypatch.setattr("softkin.evaluation.score_intervals.winkler_scores", lambda true, *_: np.zeros_like(true))
+    outputs = StoredOutputs(
+        table,
+        predictions={RUN: tmp_path / "predictions.parquet"},
+        quantiles={},
+        refits=None,
+        confidence_levels=LEVELS,
+    )
+    with pytest.raises(SoftkinError, match="below twice the mean absolute error"):
+        score_intervals(
+            table,
+            dataset="arm",
+            methods={"scp_mapie": INTERVAL_METHODS["scp_mapie"]},
+            intervals={"scp_mapie": tmp_path / "scp_mapie.parquet"},
+            regions={},
+            outputs=outputs,
+            output=tmp_path / "never.csv",
+        )
+    assert not (tmp_path / "never.csv").exists()

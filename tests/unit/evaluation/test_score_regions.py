@@ -1,0 +1,75 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from softkin.core.samples import EXTRAPOLATION, SUBSETS, TEST, TRAIN, VALIDATION, Array
+from softkin.data.table import read_subset
+from softkin.evaluation.score_regions import alarm_rates, region_rows, score_alarms
+from softkin.uncertainty.regions import REGION_METHODS
+from softkin.uncertainty.stored_outputs import StoredOutputs
+
+MARKERS = np.repeat([0, 1], 3)
+
+
+def residuals(seed: int, n: int = 88) -> dict[str, Array]:
+    rng = np.random.default_rng(seed)
+    return {s: rng.standard_normal((n, 6)) * np.repeat([0.2, 2.0], 3) for s in (TRAIN, VALIDATION, TEST, EXTRAPOLATION)}
+
+
+def test_false_alarms_are_as_many_as_promised() -> None:
+    """300 times: without displacement the mean share of alarms is alpha (n + 1) rounded down / (n + 1), jointly and
+    per coordinate; moved by 5 mm nearly every row is noticed.
+    """
+    shares = []
+    for seed in range(300):
+        rows = [r for r in alarm_rates(residuals(seed), MARKERS, 0.9, seed) if r["subset"] == TEST]
+        still = next(row for row in rows if row["displacement_mm"] == 0)
+        moved = next(row for row in rows if row["displacement_mm"] == 5)
+        shares.append([still["joint_alarm_rate"], still["coordinate_alarm_rate"], moved["joint_alarm_rate"]])
+    expected = 8 / 89
+    means, errors = np.mean(shares, axis=0), np.std(shares, axis=0) / np.sqrt(300)
+    np.testing.assert_array_less(np.abs(means[:2] - expected), 4 * errors[:2])
+    assert expected <= 0.1
+    assert means[2] > 0.95
+
+
+@pytest.fixture
+def outputs(table: Path, tmp_path: Path) -> StoredOutputs:
+    predictions = pd.read_parquet(table).drop(columns=["u1", "u2"])
+    coordinates = ["m1_x", "m1_y", "m1_z"]
+    predictions[coordinates] += np.random.default_rng(0).standard_normal((len(predictions), 3))
+    predictions.to_parquet(tmp_path / "predictions.parquet")
+    return StoredOutputs(
+        table,
+        predictions={("lr", "paper"): tmp_path / "predictions.parquet"},
+        quantiles={},
+        refits=None,
+        confidence_levels=[0.8, 0.9],
+    )
+
+
+def test_a_row_for_every_region_level_and_subset(table: Path, outputs: StoredOutputs) -> None:
+    truth = {subset: read_subset(table, subset).positions for subset in SUBSETS}
+    rows = pd.DataFrame(region_rows(outputs, truth, REGION_METHODS))
+    assert len(rows) == len(REGION_METHODS) * 2 * 2
+    assert set(rows["coordinate"]) == {"joint"}
+    far = rows[rows["subset"] == "extrapolation"]
+    assert set(far["guarantee"]) == {"no guarantee"}
+    assert far["coverage_p_value"].isna().all()
+    near = rows[(rows["subset"] == "test") & (rows["interval_method"] == "joint_box")]
+    assert set(near["guarantee"]) == {"joint"}
+    assert near["coverage_p_value"].between(0, 1).all()
+    assert near["coverage"].between(near["coverage_low"], near["coverage_high"]).all()
+
+
+def test_alarms_are_written(table: Path, outputs: StoredOutputs, tmp_path: Path) -> None:
+    truth = {subset: read_subset(table, subset).positions for subset in SUBSETS}
+    score_alarms(outputs, truth, dataset="arm", seed=0, output=tmp_path / "alarms.csv")
+    alarms = pd.read_csv(tmp_path / "alarms.csv")
+    assert len(alarms) == 2 * 2 * 5
+    grown = alarms[(alarms["subset"] == "test") & (alarms["alpha"] == 0.1)].set_index("displacement_mm")
+    assert grown.loc[10.0, "joint_alarm_rate"] > grown.loc[0.0, "joint_alarm_rate"]

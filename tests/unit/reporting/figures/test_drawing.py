@@ -1,0 +1,99 @@
+"""Every figure of the registries, drawn from made-up results."""
+
+from __future__ import annotations
+
+import dataclasses
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+from PIL import Image
+
+from softkin.reporting.figures import CAMPAIGN_FIGURES, FIGURES
+from softkin.reporting.figures.drawing import DPI, draw
+from softkin.reporting.figures.spec import DatasetResults
+from softkin.reporting.figures.style import PAGE
+
+
+def test_every_figure_is_drawn_with_the_numbers_behind_it(results: DatasetResults, tmp_path: Path) -> None:
+    draw(FIGURES, results, tmp_path / "figures")
+    index = pd.read_csv(tmp_path / "figures" / "index.csv")
+    assert set(index["figure"]) == set(FIGURES)
+    for name in FIGURES:
+        with Image.open(tmp_path / "figures" / f"{name}.png") as image:
+            assert 1000 < image.width <= PAGE * DPI  # wider, and its text is too small on a page
+            assert len(set(image.convert("L").resize((64, 32)).tobytes())) > 8  # not a blank page
+            edges = np.asarray(image.convert("L")).astype(int)
+        # Nothing is cut off: the outermost pixels are white.
+        assert min(edges[0].min(), edges[-1].min(), edges[:, 0].min(), edges[:, -1].min()) > 250
+        assert (tmp_path / "figures" / f"{name}.png").stat().st_size < 300_000
+        assert "<svg" in (tmp_path / "figures" / f"{name}.svg").read_text()[:2000]
+        assert len(pd.read_csv(tmp_path / "figures" / f"{name}.csv")) >= 3
+
+
+def test_a_figure_of_what_was_not_run_is_left_out_and_said_so(
+    results: DatasetResults, tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    caplog.set_level("INFO", logger="softkin")
+    for method, path in results.intervals.items():
+        stored = pd.read_parquet(path)
+        stored[stored["model"] == "gp"].to_parquet(path)
+        assert method
+    draw({"intervals_paper": FIGURES["intervals_paper"]}, results, tmp_path / "figures")
+    assert "no intervals_paper: nothing of it was run, or too little" in caplog.text
+    assert len(pd.read_csv(tmp_path / "figures" / "index.csv")) == 0
+
+
+def test_pictures_do_not_change_when_their_numbers_do_not(results: DatasetResults, tmp_path: Path) -> None:
+    one = {"conditional_coverage": FIGURES["conditional_coverage"]}
+    for place in ("a", "b"):
+        draw(one, results, tmp_path / place)
+    for ending in ("png", "svg", "csv"):
+        first, second = ((tmp_path / place / f"conditional_coverage.{ending}").read_bytes() for place in ("a", "b"))
+        assert first == second
+
+
+@pytest.mark.parametrize("name", [*FIGURES, *CAMPAIGN_FIGURES])
+def test_it_is_registered_under_its_own_name_and_explained(name: str) -> None:
+    spec = FIGURES[name] if name in FIGURES else CAMPAIGN_FIGURES[name]
+    assert spec.name == name
+    assert spec.title
+    assert spec.caption.endswith(".")
+
+
+@pytest.mark.parametrize(
+    ("without", "gone"),
+    [
+        ({"trials": {}}, {"tuning_history", "importance"}),
+        ({"intervals": ["qr", "cqr"], "choice": ["cqr"]}, {"residuals", "robot", "workspace", "intervals_chosen"}),
+        ({"runs": [("gp", "tuned")], "choice": ["scp_spread"]}, {"intervals_paper"}),
+    ],
+)
+def test_a_smaller_configuration_leaves_out_its_figures_and_no_others(
+    results: DatasetResults, without: dict[str, Any], gone: set[str]
+) -> None:
+    """Only cqr and qr; nothing tuned; only one model: everything else is still drawn."""
+    kept = without.get("intervals", list(results.intervals))
+    runs = without.get("runs", list(results.predictions))
+    smaller = dataclasses.replace(
+        results,
+        trials=without.get("trials", results.trials),
+        intervals={method: results.intervals[method] for method in kept},
+        predictions={run: results.predictions[run] for run in runs},
+    )
+    choice = pd.read_csv(results.choice)
+    choice = choice[choice["interval_method"].isin(without.get("choice", list(kept)))]
+    choice[choice["interval_method"].isin(kept)].to_csv(results.choice, index=False)
+    for path in results.intervals.values():
+        stored = pd.read_parquet(path)
+        stored[[run in runs for run in zip(stored["model"], stored["preset"], strict=True)]].to_parquet(path)
+    for path in (results.point, results.interval_metrics, results.conditional):
+        stored = pd.read_csv(path)
+        stored[[run in runs for run in zip(stored["model"], stored["preset"], strict=True)]].to_csv(path, index=False)
+    frames = {name: spec.frame(smaller) for name, spec in FIGURES.items()}
+    assert {name for name, frame in frames.items() if frame.empty} == gone
+    for name, spec in FIGURES.items():
+        if name not in gone:
+            assert spec.plot(frames[name], smaller).axes

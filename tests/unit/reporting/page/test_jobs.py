@@ -1,0 +1,37 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from softkin.core.files import write_json
+from softkin.reporting.page.jobs import N_SLOWEST, Job, duration, measured, slowest_grid
+
+
+@pytest.fixture
+def jobs(tmp_path: Path) -> list[Job]:
+    jobs = []
+    for seconds in range(1, 31):
+        benchmark, record = tmp_path / f"{seconds}.tsv", tmp_path / f"{seconds}.json"
+        cpu = "-" if seconds == 1 else str(seconds / 2)  # Snakemake's word for what it could not measure
+        benchmark.write_text(f"s\th:m:s\tmax_rss\tcpu_time\n{seconds}\t0:00:01\t100\t{cpu}\n")
+        write_json(record, {"n_trials": 30, "n_pruned": seconds})
+        jobs.append(Job("tune" if seconds % 2 else "refit", "arm", "gp", "tuned", benchmark, (record,)))
+    return jobs
+
+
+def test_the_slowest_come_first_with_their_trials(jobs: list[Job]) -> None:
+    grid = slowest_grid(measured(jobs), {"gp": "Gaussian process"})
+    assert len(grid.rows) == N_SLOWEST
+    assert [cell.text for cell in grid.rows[0]] == [
+        *("refit", "arm", "Gaussian process", "tuned", "30.0", "15.0", "100", "30", "30", "–"),
+    ]
+    walls = [float(row[4].text) for row in grid.rows]
+    assert walls == sorted(walls, reverse=True)
+
+
+def test_duration_adds_up(jobs: list[Job]) -> None:
+    text = duration(measured(jobs))
+    assert text.startswith(
+        "7 min 45 s in 30 measured jobs, added up (3 min 52 s of CPU), most of it in refit (4 min 0 s)"
+    )

@@ -1,0 +1,62 @@
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+import yaml
+
+from softkin import __version__
+from softkin.reporting.page.provenance import citations, commit, settings, versions
+from tests.conftest import HOUSE
+
+
+def git(folder: Path, *arguments: str) -> str:
+    who = ["-c", "user.name=me", "-c", "user.email=me@example.org"]
+    done = subprocess.run(["git", "-C", str(folder), *who, *arguments], check=True, capture_output=True, text=True)
+    return done.stdout.strip()
+
+
+def test_commit_and_whether_it_is_all(tmp_path: Path) -> None:
+    assert commit(tmp_path) is None
+    git(tmp_path, "init", "-q")
+    assert commit(tmp_path) is None  # nothing committed yet
+    (tmp_path / "file").write_text("one")
+    git(tmp_path, "add", "file")
+    git(tmp_path, "commit", "-q", "-m", "first")
+    head = git(tmp_path, "rev-parse", "HEAD")
+    (tmp_path / "results").mkdir()
+    (tmp_path / "results" / "new").write_text("not known to git")
+    assert commit(tmp_path) == (head, False)
+    (tmp_path / "file").write_text("two")
+    assert commit(tmp_path) == (head, True)
+    assert commit(tmp_path / "results") is None  # a folder inside another's checkout
+
+
+def test_versions_are_those_installed() -> None:
+    found = versions()
+    assert found["softkin"] == __version__
+    assert {"Python", "scikit-learn", "optuna", "mapie"} <= set(found)
+    assert "pytest" not in found
+
+
+def test_settings_can_be_run_again_and_hold_nothing_private() -> None:
+    public = {"campaign": "c", "seed": 3, "models": ["lr", "gp"], "tuning": {"n_trials": 6}}
+    text = settings(public | {"data_mirror": "/x", "tracking_uri": "sqlite:///y", "sources": {}})
+    assert yaml.safe_load(text) == public
+    assert "models: [lr, gp]" in text
+
+
+def test_citations_of_the_house_and_of_each_dataset_once() -> None:
+    sources = {"one": {"citation": "Someone (2023).\n"}, "two": {"citation": "Someone (2023)."}}
+    cited = citations(HOUSE / "CITATION.cff", sources)
+    assert cited[-1] == "Someone (2023)."
+    assert cited.count("Someone (2023).") == 1
+    assert cited[0].startswith("The softkin authors. softkin")
+    assert any("Jiang, Zhanhong; Shah, Dylan" in text for text in cited)
+
+
+def test_a_robot_that_asks_for_no_citation_has_none(tmp_path: Path) -> None:
+    """One's own, or a stand-in."""
+    cff = tmp_path / "CITATION.cff"
+    cff.write_text("title: softkin\nauthors: [{name: The authors}]\n")
+    assert citations(cff, {"my_arm": {"title": "My arm"}}) == ["The authors. softkin."]

@@ -1,0 +1,78 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from softkin.core.files import write_json
+from softkin.training.selection import OBJECTIVES, deployed, foretold, on_front, searched_runs, selection
+
+
+def runs(*rows: tuple[str, str, float, float], dataset: str = "a") -> pd.DataFrame:
+    names = ["model", "preset", "cv_mae_mm", "shell_mae_mm"]
+    return pd.DataFrame(rows, columns=names).assign(dataset=dataset, target_space="cartesian")
+
+
+def test_each_objective_has_its_own_choice_and_the_runner_up_is_another_model() -> None:
+    pool = runs(
+        ("gp", "tuned", 1.0, 9.0), ("gp", "outer", 1.5, 8.0), ("lr", "outer", 8.0, 2.0), ("mlp", "outer", 2.0, 2.5)
+    )
+    chosen = selection(pool, "extrapolation").set_index("objective")
+    assert chosen["model"].to_dict() == {"interpolation": "gp", "extrapolation": "lr", "both": "mlp"}
+    assert chosen["runner_up"].to_dict() == {"interpolation": "mlp", "extrapolation": "mlp", "both": "gp"}
+    assert chosen.loc["interpolation", "runner_up_ratio"] == 2.0
+    assert chosen.loc["both", "runner_up_ratio"] == pytest.approx(3 / 5**0.5)
+    assert chosen.loc["interpolation", "pool"] == "gp mlp lr"
+    assert deployed(selection(pool, "extrapolation"))["model"].tolist() == ["lr"]
+
+
+def test_one_model_has_no_runner_up_and_ties_go_to_the_first() -> None:
+    assert selection(runs(("lr", "tuned", 2.0, 2.0)), "both")["runner_up"].tolist() == [""] * 3
+    tied = selection(runs(("lr", "tuned", 2.0, 2.0), ("gp", "tuned", 2.0, 2.0)), "both")
+    assert set(tied["model"]) == {"lr"}
+
+
+def test_without_a_score_on_shells_there_is_a_choice_for_interpolation_only() -> None:
+    assert selection(runs(("lr", "tuned", 2.0, np.nan)), "interpolation")["objective"].tolist() == ["interpolation"]
+
+
+@given(st.lists(st.tuples(st.floats(0, 10), st.floats(0, 10)), min_size=1, max_size=12))
+def test_nothing_on_the_front_is_beaten_and_all_else_is(scores: list[tuple[float, float]]) -> None:
+    pool = runs(*(("lr", "tuned", *pair) for pair in scores))
+    front = on_front(pool)
+    for one, kept in zip(scores, front, strict=True):
+        beaten = any(a <= one[0] and b <= one[1] and (a, b) != one for a, b in scores)
+        assert kept == (not beaten)
+    best = OBJECTIVES["both"](pool).idxmin()
+    assert front[best]
+
+
+def test_the_scores_are_read_from_the_files_of_best_parameters(tmp_path: Path) -> None:
+    write_json(tmp_path / "a.json", {"target_space": "curvature", "cv_mae_mm": 1.0, "shell_mae_mm": 2.0, "params": {}})
+    write_json(tmp_path / "b.json", {"target_space": "cartesian", "cv_mae_mm": 3.0})
+    write_json(tmp_path / "c.json", {"target_space": "curvature", "cv_mae_mm": 3.0, "shell_mae_mm": None})
+    models = {"lr": "a", "gp": "b", "svr": "c"}
+    files = {("d", model, "tuned"): tmp_path / f"{name}.json" for model, name in models.items()}
+    found = searched_runs(files)
+    assert found["shell_mae_mm"].tolist() == pytest.approx([2.0, np.nan, np.inf], nan_ok=True)
+    assert found["target_space"].tolist() == ["curvature", "cartesian", "curvature"]
+
+
+def test_a_score_foretells_the_order_of_the_errors_or_not() -> None:
+    pool = runs(("lr", "tuned", 3.0, 1.0), ("gp", "tuned", 2.0, 20.0), ("svr", "tuned", 1.0, 300.0))
+    errors = {"lr": 5.0, "gp": 6.0, "svr": 70.0}
+    point = pd.DataFrame(
+        [
+            {"dataset": "a", "model": model, "preset": "tuned", "subset": subset, "mae_mm": error}
+            for model, error in errors.items()
+            for subset in ("test", "extrapolation")
+        ]
+    )
+    found = foretold(pool, point)
+    assert found["extrapolation_mae_mm"].tolist() == list(errors.values())
+    assert found["shell_rank_correlation"].tolist() == pytest.approx([1.0] * 3)
+    assert found["cv_rank_correlation"].tolist() == pytest.approx([-1.0] * 3)

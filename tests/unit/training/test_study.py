@@ -1,0 +1,169 @@
+from __future__ import annotations
+
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from softkin.core.files import read_json
+from softkin.core.runs import TUNED
+from softkin.models import MODELS, source_files
+from softkin.training.study import KEPT_PERCENT, STARTUP_TRIALS, TuningResult, TuningSettings, bounded_rows, fingerprint
+from softkin.training.tune import Robot, SearchSettings, tune_model
+from tests.conftest import bending_arm
+
+SETTINGS = TuningSettings(n_trials=8, n_folds=3, max_rows=60, seed=3)
+TIMES = ["seconds", "cpu_seconds"]
+
+
+def study(path: Path, model: str = "lasso", given: TuningSettings = SETTINGS) -> TuningResult:
+    result, _ = tune_model(
+        bending_arm(90),
+        spec=MODELS[model],
+        preset=TUNED,
+        robot=Robot(base=None, standardised_norm=False),
+        settings=given,
+        search=SearchSettings({TUNED: given.n_trials}, [TUNED], 2, [0.7], ["cartesian"]),
+        study_file=path,
+        code=source_files(model),
+        threads=1,
+    )
+    return result
+
+
+def untimed(trials: pd.DataFrame) -> pd.DataFrame:
+    return trials.drop(columns=TIMES)
+
+
+@settings(max_examples=20)
+@given(st.integers(20, 200))
+def test_rows_of_a_trial_are_bounded_distinct_and_in_order(max_rows: int) -> None:
+    rows = bending_arm(150, n_commands=3, n_markers=2)
+    kept = bounded_rows(rows, max_rows, 0)
+    assert len(kept) == min(150, max_rows)
+    places = [int(np.flatnonzero((rows.commands == row).all(axis=1))[0]) for row in kept.commands]
+    assert places == sorted(set(places))
+
+
+def test_the_number_of_trials_is_a_total_and_a_longer_study_continues(tmp_path: Path) -> None:
+    short = study(tmp_path / "a.db", given=replace(SETTINGS, n_trials=5))
+    again = study(tmp_path / "a.db", given=replace(SETTINGS, n_trials=5))
+    pd.testing.assert_frame_equal(short.trials, again.trials)
+    longer = study(tmp_path / "a.db")
+    assert len(longer.trials) == 8
+    pd.testing.assert_frame_equal(untimed(longer.trials), untimed(study(tmp_path / "b.db").trials))
+    shorter = study(tmp_path / "a.db", given=replace(SETTINGS, n_trials=5))
+    pd.testing.assert_frame_equal(shorter.trials, short.trials, check_dtype=False)
+
+
+def test_a_study_belongs_to_its_fingerprint(tmp_path: Path) -> None:
+    code = tmp_path / "model.py"
+    code.write_text("a = 1")
+    rows, spec = bending_arm(60), MODELS["lr"]
+    marks = [
+        fingerprint(spec.name, rows, SETTINGS, [code]),
+        fingerprint(spec.name, bending_arm(61), SETTINGS, [code]),
+        fingerprint("lasso", rows, SETTINGS, [code]),
+        *(
+            fingerprint(spec.name, rows, replace(SETTINGS, **{key: 7}), [code])  # type: ignore[arg-type]
+            for key in ("n_folds", "max_rows", "seed")
+        ),
+    ]
+    assert fingerprint(spec.name, rows, replace(SETTINGS, n_trials=99), [code]) == marks[0]
+    code.write_text("a = 2")
+    marks.append(fingerprint(spec.name, rows, SETTINGS, [code]))
+    assert len(set(marks)) == len(marks)
+
+
+def test_another_seed_starts_a_new_study(tmp_path: Path) -> None:
+    study(tmp_path / "a.db")
+    other = study(tmp_path / "a.db", given=replace(SETTINGS, seed=4))
+    fresh = study(tmp_path / "b.db", given=replace(SETTINGS, seed=4))
+    pd.testing.assert_frame_equal(untimed(other.trials), untimed(fresh.trials))
+
+
+def test_the_best_trial_is_a_whole_cross_validation(tmp_path: Path) -> None:
+    result = study(tmp_path / "a.db", "rf", replace(SETTINGS, n_trials=14))
+    complete = result.trials[result.trials["state"] == "COMPLETE"]
+    assert result.score_mm == complete["score_mm"].min()
+    assert (complete["n_parts_scored"] == 3).all()
+    pruned = result.trials[result.trials["state"] == "PRUNED"]
+    assert len(pruned) > 0
+    assert (pruned["n_parts_scored"] < 3).all()
+    assert pruned["score_mm"].isna().all()
+    assert result.trials["first_part_mm"].gt(0).all()
+    # Nearly the best on the first part, or not carried further.
+    late = complete[complete["trial"] >= STARTUP_TRIALS]
+    for trial, first in zip(late["trial"], late["first_part_mm"], strict=True):
+        earlier = complete.loc[complete["trial"] < trial, "first_part_mm"]
+        assert first <= np.percentile(earlier, KEPT_PERCENT)
+
+
+WORKER = """
+import sys
+from pathlib import Path
+from tests.unit.test_tuning import SETTINGS, study
+from softkin.files import write_json
+result = study(Path(sys.argv[1]), sys.argv[2])
+result.trials.to_csv(sys.argv[3], index=False)
+write_json(sys.argv[3] + ".best", {"params": result.params, "score": result.score_mm})
+"""
+
+
+def worker(folder: Path, name: str, model: str) -> subprocess.Popen[bytes]:
+    command = [sys.executable, "-c", WORKER, str(folder / f"{name}.db"), model, str(folder / f"{name}.csv")]
+    root = Path(__file__).parents[2]
+    return subprocess.Popen(command, cwd=root, env={**os.environ, "PYTHONPATH": str(root)}, stderr=subprocess.DEVNULL)
+
+
+def kill_often(folder: Path, model: str, kills: int, rng: random.Random, longest: float) -> int:
+    """Run a study, killing it -9 at random moments after its file is there; return how often that hit it."""
+    hits = 0
+    for _ in range(kills):
+        process = worker(folder, "killed", model)
+        while not (folder / "killed.db").exists() and process.poll() is None:
+            time.sleep(0.005)
+        time.sleep(rng.uniform(0.0, longest))
+        hits += process.poll() is None
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+    assert worker(folder, "killed", model).wait() == 0
+    return hits
+
+
+def assert_same_end(folder: Path) -> None:
+    killed, undisturbed = (pd.read_csv(folder / f"{name}.csv") for name in ("killed", "undisturbed"))
+    pd.testing.assert_frame_equal(untimed(killed), untimed(undisturbed), check_exact=True)
+    assert read_json(folder / "killed.csv.best") == read_json(folder / "undisturbed.csv.best")
+
+
+def test_a_killed_study_ends_as_an_undisturbed_one(tmp_path: Path) -> None:
+    assert worker(tmp_path, "undisturbed", "rf").wait() == 0
+    assert kill_often(tmp_path, "rf", kills=3, rng=random.Random(1), longest=2.5) >= 2
+    assert_same_end(tmp_path)
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(1800)
+@pytest.mark.parametrize("model", MODELS)
+def test_campaign_kill_at_any_moment(tmp_path: Path, model: str) -> None:
+    """Twelve kills from the first millisecond on, study creation included, for every model."""
+    rng = random.Random(f"campaign {model}")
+    assert worker(tmp_path, "undisturbed", model).wait() == 0
+    for _ in range(12):
+        process = worker(tmp_path, "killed", model)
+        time.sleep(rng.uniform(0.5, 5.0))
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+    assert worker(tmp_path, "killed", model).wait() == 0
+    assert_same_end(tmp_path)

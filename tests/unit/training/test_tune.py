@@ -1,0 +1,116 @@
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from softkin.core.errors import SoftkinError
+from softkin.core.files import read_json
+from softkin.core.folds import grouped_folds
+from softkin.core.runs import OUTER, TUNED
+from softkin.core.samples import Samples
+from softkin.data.table import to_table, write_table
+from softkin.models import MODELS
+from softkin.training.selection import OBJECTIVES, deployed, searched_runs, selection
+from softkin.training.study import TuningSettings
+from softkin.training.tune import Robot, SearchSettings, part_errors, possible_spaces, some_markers, tune_table
+from tests.conftest import bending_arm
+
+ROBOT = Robot(base=None, standardised_norm=False)
+SPACES = ["cartesian", "curvature"]
+
+
+def test_repeated_commands_do_not_flatter_a_memorising_model() -> None:
+    """40 copies of each command, as in the paper's ELASTICA: an ungrouped fold would report no error at all."""
+    few = bending_arm(15)
+    rows = replace(few, commands=np.tile(few.commands, (40, 1)), positions=np.tile(few.positions, (40, 1)))
+    folds = grouped_folds(rows.commands, 3, 0)
+    deep = {"n_estimators": 20, "bootstrap": False, "target_space": "cartesian"}
+    assert np.mean(list(part_errors(MODELS["rf"], deep, rows, folds, ROBOT, 0, 1))) > 1.0
+
+
+@given(st.integers(1, 5), st.integers(1, 9))
+def test_a_study_sees_some_markers_the_last_and_all_that_never_move(max_markers: int, n_markers: int) -> None:
+    positions = np.arange(4.0)[:, None] * np.repeat(np.r_[0.0, 1.0 + np.arange(n_markers)], 3) + 1.0
+    kept = some_markers(Samples(np.zeros((4, 2)), positions), max_markers).positions
+    assert kept.shape[1] == 3 + 3 * min(max_markers, n_markers)
+    assert np.ptp(kept[:, :3]) == 0
+    np.testing.assert_array_equal(kept[:, -3:], positions[:, -3:])
+    assert (np.diff(kept[-1, ::3]) > 0).all()
+
+
+def two_link_arm(n: int, seed: int = 0) -> Samples:
+    """Rigid links of 100 and 80 mm in a plane, the joint angles as commands: it reaches behind its base."""
+    commands = np.random.default_rng(seed).uniform(-2.4, 2.4, (n, 2))
+    first, second = commands[:, 0], commands.sum(axis=1)
+    x, y = 100 * np.cos(first) + 80 * np.cos(second), 100 * np.sin(first) + 80 * np.sin(second)
+    return Samples(commands, np.column_stack([x, y, np.zeros(n)]))
+
+
+def found(samples: Samples, model: str, folder: Path, n_trials: int = 8) -> dict[str, dict[str, object]]:
+    """What the studies of both presets find, by preset."""
+    table = folder / "table.parquet"
+    write_table(to_table(dict.fromkeys(("train", "validation", "test", "extrapolation"), samples)), table)
+    presets = (TUNED, OUTER)
+    files = {name: {p: folder / f"{p}.{name}" for p in presets} for name in ("db", "json", "csv")}
+    tune_table(
+        table,
+        spec=MODELS[model],
+        robot=ROBOT,
+        settings=TuningSettings(n_trials=n_trials, n_folds=4, max_rows=400, seed=0),
+        search=SearchSettings(dict.fromkeys(presets, n_trials), presets, 3, [0.5, 0.75], SPACES),
+        studies=files["db"],
+        code=[],
+        threads=1,
+        parameters=files["json"],
+        trials=files["csv"],
+    )
+    for preset in presets:
+        assert len(pd.read_csv(files["csv"][preset])) == n_trials
+    return {preset: read_json(files["json"][preset]) for preset in presets}
+
+
+def test_an_arm_that_bends_in_arcs_is_given_curvature_coordinates(tmp_path: Path) -> None:
+    by_preset = found(bending_arm(120, n_markers=2), "lr", tmp_path)
+    assert by_preset[OUTER]["target_space"] == "curvature"
+    other = by_preset[OUTER]["other_space"]
+    assert isinstance(other, dict)
+    assert other["target_space"] == "cartesian"
+    assert other["shell_mae_mm"] >= by_preset[OUTER]["shell_mae_mm"]
+    assert set(other["params"]) == set(by_preset[OUTER]["params"])
+    assert "other_space" not in by_preset[TUNED]
+    for scores in by_preset.values():
+        assert 0 <= scores["cv_mae_mm"] < np.inf
+        assert 0 <= scores["shell_mae_mm"] < np.inf
+    assert by_preset[OUTER]["shell_mae_mm"] <= by_preset[TUNED]["shell_mae_mm"]
+    assert by_preset[TUNED]["cv_mae_mm"] <= by_preset[OUTER]["cv_mae_mm"]
+
+
+@pytest.mark.parametrize("objective", OBJECTIVES)
+def test_a_rigid_arm_of_two_links_is_given_positions(objective: str, two_links: pd.DataFrame) -> None:
+    """Not by every model: a poor one may be less poor in arcs. By the one that is chosen."""
+    chosen = deployed(selection(two_links, objective)).iloc[0]
+    assert (chosen["model"], chosen["target_space"]) == ("gp", "cartesian")
+
+
+@pytest.fixture(scope="module")
+def two_links(tmp_path_factory: pytest.TempPathFactory) -> pd.DataFrame:
+    files = {}
+    for model in ("gp", "ridge"):
+        folder = tmp_path_factory.mktemp(model)
+        found(two_link_arm(300), model, folder)
+        files |= {("arm", model, preset): folder / f"{preset}.json" for preset in (TUNED, OUTER)}
+    return searched_runs(files)
+
+
+def test_a_space_that_does_not_hold_the_robot_is_left_out_and_an_empty_choice_is_an_error() -> None:
+    behind = Samples(np.arange(4.0)[:, None], np.array([[0.0, 0.0, -z] for z in (5.0, 6.0, 7.0, 8.0)]))
+    declared = replace(ROBOT, base={"origin": [0.0, 0.0, 0.0], "axis": [0.0, 0.0, 1.0]})
+    assert possible_spaces(behind, SPACES, declared) == ["cartesian"]
+    with pytest.raises(SoftkinError, match=r"4 positions lie at the base or straight behind it.*declare `base`"):
+        possible_spaces(behind, ["curvature"], declared)

@@ -1,0 +1,160 @@
+# Names of runs and paths of files: what the configuration spans, and what more than one stage needs.
+from softkin.core.runs import OUTER, PAPER, PRESETS, SEARCHED, TUNED
+
+HEADLINE = "results/tables/headline.txt"
+REPORT = "results/report.html"
+# To be pasted into a paper.
+PAPER_TABLES = [
+    f"{name}.{ending}"
+    for name in ("paper_tables", "interval_tables")
+    for ending in ("md", "tex")
+]
+TABLES = [
+    "point_metrics.csv",
+    "marker_errors.csv",
+    "interval_metrics.csv",
+    "interval_choice.csv",
+    "conditional_coverage.csv",
+    "alarm_rates.csv",
+    "extrapolation_intervals.csv",
+    "target_spaces.csv",
+    "published_comparison.csv",
+    "published_intervals.csv",
+    *(["published_columns.csv"] if TUNED in config["presets"] else []),
+    *(
+        ["selection.csv", "searched_runs.csv"]
+        if set(SEARCHED) & set(config["presets"])
+        else []
+    ),
+]
+
+
+# The presets that a study stands behind.
+SEARCHED_PRESETS = [preset for preset in config["presets"] if preset in SEARCHED]
+
+
+wildcard_constraints:
+    dataset="|".join(config["sources"]),
+    model="|".join(MODELS),
+    preset="|".join(PRESETS),
+    quantile_model="|".join(QUANTILE_MODELS),
+
+
+def of_presets(name, presets=tuple(config["presets"])):
+    """One file of a model for each of these presets."""
+    return [f"results/{{dataset}}/{{model}}/{preset}/{name}" for preset in presets]
+
+
+def of_searched(name):
+    """One file of a model for each preset that a study stands behind."""
+    return of_presets(name, SEARCHED_PRESETS)
+
+
+def every_run(models=tuple(config["models"])):
+    """[model, preset] of each run that one dataset gets."""
+    return [[model, preset] for model in models for preset in config["presets"]]
+
+
+def searched_runs():
+    """[model, preset] of each run that a study stands behind."""
+    return [run for run in every_run() if run[1] in SEARCHED]
+
+
+def run_files(name, presets=tuple(PRESETS), models=tuple(config["models"])):
+    """One file of each run of a dataset, in the order of `every_run`."""
+    return [
+        f"results/{{dataset}}/{model}/{preset}/{name}"
+        for model, preset in every_run(models)
+        if preset in presets
+    ]
+
+
+def asks_for(trait):
+    """Whether the calibration data of a configured interval method have this trait."""
+    methods = [INTERVAL_METHODS[name] for name in config["interval_methods"]]
+    return any(getattr(method.calibrated_on, trait) for method in methods)
+
+
+# The models that are fitted in either target space, to tell what a space is worth.
+COMPARED = config["models"] * (
+    OUTER in config["presets"] and len(config["target_spaces"]) > 1
+)
+# The models that CV+ and jackknife+-after-bootstrap refit.
+CHEAP_MODELS = [name for name in config["models"] if MODELS[name].is_cheap]
+# The models that a few gross errors cannot move.
+ROBUST_MODELS = [name for name in config["models"] if MODELS[name].is_robust]
+# The fits of quantile regressors, where a configured method needs them.
+QUANTILE_RUNS = [
+    [name, preset]
+    for name in config["quantile_models"]
+    for preset in config["presets"]
+    if preset in (PAPER, TUNED) and asks_for("needs_quantiles")
+]
+# The refits that a configured method needs; none of the others are made.
+REFITS = ["results/{dataset}/refits.npz"] * asks_for("needs_refits")
+SHELLS = ["results/{dataset}/shells.npz"] * asks_for("needs_shells")
+
+
+def stored_outputs(wildcards):
+    """Everything that the interval methods start from, of one dataset."""
+    quantiles = "results/{{dataset}}/quantiles/{0}/{1}/quantiles.parquet"
+    patterns = {
+        "predictions": run_files("predictions.parquet"),
+        "quantiles": [quantiles.format(*run) for run in QUANTILE_RUNS],
+        "refits": REFITS,
+        "shells": SHELLS,
+    }
+    return {
+        name: expand(paths, dataset=wildcards.dataset)
+        for name, paths in patterns.items()
+    }
+
+
+def interval_params():
+    """What the interval rules are told."""
+    return {
+        "methods": config["interval_methods"],
+        "runs": every_run(),
+        "quantile_runs": QUANTILE_RUNS,
+        "confidence_levels": config["confidence_levels"],
+        "seed": config["seed"],
+    }
+
+
+def quantile_parameters(wildcards):
+    """For the tuned preset, what its study found."""
+    path = "results/{dataset}/quantiles/{quantile_model}/tuned/parameters.json"
+    return expand(path, **wildcards) if wildcards.preset == TUNED else []
+
+
+def of_every_dataset(patterns):
+    """The files of the first dataset, then those of the second, ...: the order of `every_study`."""
+    return [
+        path
+        for dataset in config["datasets"]
+        for path in expand(patterns, dataset=dataset)
+    ]
+
+
+def every_study():
+    """[dataset, model, preset] of each study."""
+    return [
+        [dataset, *run] for dataset in config["datasets"] for run in searched_runs()
+    ]
+
+
+def final_output():
+    """All that a complete campaign leaves."""
+    return [
+        REPORT,
+        HEADLINE,
+        *(f"results/tables/{name}" for name in PAPER_TABLES),
+        "results/tables/figures",
+        *(f"results/tables/{name}" for name in TABLES),
+        *expand(
+            "results/{dataset}/{name}",
+            dataset=config["datasets"],
+            name=["data_card.md", "figures", "calibrated_model.joblib"],
+        ),
+        *expand("results/{dataset}/mlflow_runs.json", dataset=config["datasets"]),
+    ]

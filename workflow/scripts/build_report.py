@@ -1,0 +1,31 @@
+"""Rule build_report: one page that tells the run."""
+
+from pathlib import Path
+
+from softkin.core.job import job
+from softkin.models import MODELS
+from softkin.reporting.page.build import RobotFiles, build_report
+from softkin.reporting.page.jobs import Job
+from softkin.reporting.titles import Titles
+from softkin.uncertainty.intervals import INTERVAL_METHODS
+from softkin.uncertainty.labelled import LABELLED_METHODS
+from softkin.uncertainty.regions import REGION_METHODS
+
+files, params = snakemake.input, snakemake.params
+datasets = params.config["datasets"]
+methods = {**INTERVAL_METHODS, **REGION_METHODS, **LABELLED_METHODS}
+of_robots = zip(files.descriptions, files.data_cards, files.card_pages, files.figures, strict=True)
+with job(snakemake.log[0], "build report"):
+    build_report(
+        tables=files.tables,
+        robots={name: RobotFiles(*of_robot) for name, of_robot in zip(datasets, of_robots, strict=True)},
+        campaign_figures=files.campaign_figures,
+        jobs=[Job(*run, Path(benchmark), tuple(map(Path, records))) for run, benchmark, records in params.jobs],
+        config=params.config,
+        titles=Titles(
+            {name: spec.title for name, spec in MODELS.items()},
+            {name: method.title for name, method in methods.items()},
+        ),
+        citation=files.citation,
+        report=snakemake.output[0],
+    )

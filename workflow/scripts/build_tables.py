@@ -1,0 +1,31 @@
+"""Rule build_tables: the tables across datasets."""
+
+from pathlib import Path
+
+from softkin.core.job import job
+from softkin.models import MODELS
+from softkin.reporting.tables.build import DatasetFiles, PublishedFiles, Tables, build_tables
+from softkin.reporting.titles import Titles
+from softkin.uncertainty.intervals import INTERVAL_METHODS
+
+files, params = snakemake.input, snakemake.params
+kinds = ("point", "markers", "intervals", "choice", "conditional", "alarms", "extrapolation", "spaces")
+by_dataset = zip(*(files[kind] for kind in (*kinds, "description", "data_card")), strict=True)
+with job(snakemake.log[0], "build tables"):
+    tables = Tables(
+        {name: DatasetFiles(*of_dataset) for name, of_dataset in zip(params.sources, by_dataset, strict=True)},
+        sources=params.sources,
+        parameters={tuple(study): path for study, path in zip(params.studies, files.parameters, strict=True)},
+        objective=params.objective,
+        published=PublishedFiles(files.published, files.subsets, files.published_intervals),
+    )
+    build_tables(
+        tables,
+        sources=params.sources,
+        published_subsets=files.subsets,
+        titles=Titles(
+            {name: spec.title for name, spec in MODELS.items()},
+            {name: method.title for name, method in INTERVAL_METHODS.items()},
+        ),
+        folder=Path(snakemake.output.headline).parent,
+    )

@@ -1,0 +1,17 @@
+"""Rule draw_campaign_figures: draw every figure across datasets."""
+
+from pathlib import Path
+
+from softkin.core.job import job
+from softkin.models import MODELS
+from softkin.reporting.figures import CAMPAIGN_FIGURES
+from softkin.reporting.figures.drawing import draw
+from softkin.reporting.figures.spec import CampaignResults
+
+with job(snakemake.log[0], "draw campaign figures"):
+    results = CampaignResults(
+        published_comparison=Path(snakemake.input.published_comparison),
+        dataset_titles=snakemake.params.titles,
+        model_titles={name: spec.title for name, spec in MODELS.items()},
+    )
+    draw(CAMPAIGN_FIGURES, results, Path(snakemake.output[0]))
