@@ -6,7 +6,7 @@ export MLFLOW_DISABLE_TELEMETRY := true
 # Things run side by side, one core each: with more threads than that they wait for each other most of the time.
 export OMP_NUM_THREADS := 1
 
-.PHONY: run unlock new-robot test test-workflow test-others test-run lint ui store report gallery snakemake-report campaigns benchmark benchmark-large benchmark-pruning benchmark-shells coverage numbers standins
+.PHONY: run unlock new-robot test test-workflow test-others test-run lint ui store report gallery snakemake-report campaigns benchmark benchmark-large benchmark-pruning benchmark-shells coverage numbers results-page standins
 .PHONY: environment clean ui-screenshot
 
 run: .venv/installed
@@ -92,9 +92,14 @@ benchmark-shells: .venv/installed
 standins: .venv/installed
 	$(BIN)/python benchmarks/standins.py
 
-# What the README's numbers are read from, of a finished run of the default configuration.
+# What the tables of a finished run of the default configuration say: to compare before and after a change.
 numbers: .venv/installed
-	$(BIN)/python -m tools.readme_numbers
+	@$(BIN)/python -m tools.print_numbers
+
+# docs/results.md, its gallery with it, from a finished run of the default configuration.
+results-page: .venv/installed
+	$(BIN)/python -m tools.results_page
+	$(BIN)/python -m tools.gallery
 
 # The picture of the MLflow UI in the README, docs/mlflow_ui.png, from the store of a finished run.
 ui-screenshot: .venv/installed

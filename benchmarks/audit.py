@@ -1,6 +1,6 @@
-"""What an audit of large data takes: time and memory, on a made-up table.
+"""Measure the time and memory of an audit of a large made-up table.
 
-    python benchmarks/audit.py [--rows 1000000] [--commands 6] [--markers 10] [--only-write] [--table FILE]
+    python -m benchmarks.audit [--rows 1000000] [--commands 6] [--markers 10] [--only-write] [--table FILE]
 
 Writes a table of a smooth robot with noise (or takes `--table`), audits it and prints the seconds and the largest
 memory that the process held. Making the table takes memory of its own: to measure the audit alone, write it first with
@@ -39,7 +39,7 @@ def made_up(n_rows: int, n_commands: int, n_markers: int) -> dict[str, Samples]:
 
 
 def main() -> int:
-    """Print what it took; the exit status is 1 beyond a minute or 2 GB."""
+    """Print seconds and memory; the exit status is 1 beyond a minute or 2 GB."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--rows", type=int, default=1_000_000)
     parser.add_argument("--commands", type=int, default=6)

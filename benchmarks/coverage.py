@@ -1,4 +1,4 @@
-"""Is 90 % true? Mean coverage over random re-splits of validation and test, against what theory says.
+"""Mean coverage of every method over random re-splits of validation and test, beside its theoretical value.
 
     python benchmarks/coverage.py [--results results] [--splits 200] [--seed 0] [--datasets finger ...]
 
@@ -13,10 +13,10 @@ errors; more than 3 below is marked and makes the exit status 1, more than 3 abo
 from __future__ import annotations
 
 import argparse
-import dataclasses
 import logging
 import sys
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -24,12 +24,13 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from softkin.core.metrics.interval import covered
+from softkin.core.runs import Run
 from softkin.core.samples import SUBSETS, TEST, TRAIN, VALIDATION, Array, informative_coordinates
 from softkin.data.table import read_subset
 from softkin.evaluation.score_regions import moving_residuals
 from softkin.models.spec import PAPERS_RUN
-from softkin.uncertainty.calibration_data import Evidence
-from softkin.uncertainty.choose import resplit
+from softkin.uncertainty.calibration_data import QuantileCalibration, SpreadCalibration
+from softkin.uncertainty.choose import Resplittable
 from softkin.uncertainty.conformal import conformal_rank
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from softkin.uncertainty.intervals.spec import MARGINAL
@@ -37,59 +38,57 @@ from softkin.uncertainty.regions import REGION_METHODS
 from softkin.uncertainty.stored_outputs import StoredOutputs
 
 LEVELS = [0.8, 0.9, 0.95]
-PRESETS = ("paper", "tuned")
 Ranks = Callable[[int, float], int | None]
 
 
-def evidences_of(folder: Path) -> StoredOutputs:
-    """All stored outputs of a dataset."""
+def outputs_of(folder: Path) -> StoredOutputs:
+    """All stored outputs of a dataset but refits."""
     quantiles = {
-        (path.parts[-3], path.parts[-2]): path for path in sorted(folder.glob("quantiles/*/*/quantiles.parquet"))
+        Run(path.parts[-3], path.parts[-2]): path for path in sorted(folder.glob("quantiles/*/*/quantiles.parquet"))
     }
-    predictions = {(path.parts[-3], path.parts[-2]): path for path in sorted(folder.glob("*/*/predictions.parquet"))}
+    predictions = {Run(path.parts[-3], path.parts[-2]): path for path in sorted(folder.glob("*/*/predictions.parquet"))}
     return StoredOutputs(
         folder / "table.parquet", predictions=predictions, quantiles=quantiles, refits=None, confidence_levels=LEVELS
     )
 
 
-def pooled(evidence: Evidence, truth: Array, n_test: int, moving: NDArray[np.bool_]) -> Evidence:
+def pooled(data: Resplittable, truth: Array, n_test: int, moving: NDArray[np.bool_]) -> Resplittable:
     """The rows of `validation` and `test` as one calibration set, moving coordinates only."""
-    axis = 0 if evidence.calibration.ndim == 2 else 1
-    whole = np.concatenate([evidence.calibration, evidence.new.take(range(n_test), axis)], axis)
-    changed: dict[str, Array] = {"calibration": whole.compress(moving, axis + 1), "truth": truth[:, moving]}
-    for field in ("spread", "commands"):
-        known, new = (getattr(evidence, f"{part}_{field}") for part in ("calibration", "new"))
-        if known is not None:
-            both = np.concatenate([known, new[:n_test]])
-            changed[f"calibration_{field}"] = both[:, moving] if field == "spread" else both
-    if evidence.train_spread is not None:
-        changed["train_spread"] = evidence.train_spread[:, moving]
-    return dataclasses.replace(evidence, **changed)
+    if isinstance(data, QuantileCalibration):
+        quantiles = np.concatenate([data.calibration, data.new[:, :n_test]], axis=1)
+        return replace(data, calibration=quantiles[:, :, moving], truth=truth[:, moving])
+    pool = replace(
+        data,
+        calibration=np.concatenate([data.calibration, data.new[:n_test]])[:, moving],
+        truth=truth[:, moving],
+        calibration_commands=np.concatenate([data.calibration_commands, data.new_commands[:n_test]]),
+    )
+    if isinstance(pool, SpreadCalibration):
+        spread = np.concatenate([pool.calibration_spread, pool.new_spread[:n_test]])
+        return replace(pool, train_spread=pool.train_spread[:, moving], calibration_spread=spread[:, moving])
+    return pool
 
 
 def coverages(folder: Path, splits: int, seed: int) -> Iterator[tuple[str, str, Ranks, int, Array]]:
     """Method, run, its rank, number of calibration rows, coverage (n_splits, n_levels, n_coordinates)."""
-    outputs = evidences_of(folder)
+    outputs = outputs_of(folder)
     truth = {subset: read_subset(folder / "table.parquet", subset).positions for subset in SUBSETS}
     moving = informative_coordinates(truth[TRAIN])
     both = np.concatenate([truth[VALIDATION], truth[TEST]])
     n, n_test = len(truth[VALIDATION]), len(truth[TEST])
     choice = pd.read_csv(folder / "interval_choice.csv")
-    runs = {PAPERS_RUN, *zip(choice["model"], choice["preset"], strict=True)}
+    runs = {PAPERS_RUN, *map(Run, choice["model"], choice["preset"])}
     orders = [np.random.default_rng([seed, split]).permutation(len(both)) for split in range(splits)]
     for name, method in INTERVAL_METHODS.items():
         if method.guarantee != MARGINAL or method.rank is None:
             continue
-        for run, evidence in outputs.of(method.on):
+        for run, data in outputs.of(method.calibrated_on):
             if run not in runs:
                 continue
-            assert isinstance(evidence, Evidence)
-            pool = pooled(evidence, both, n_test, moving)
-            axis = 0 if pool.calibration.ndim == 2 else 1
+            pool = pooled(data, both, n_test, moving)
             shares = []
             for order in orders:
-                part = resplit(pool, order[:n], order[n:], axis)
-                bounds = method.intervals(part, LEVELS)
+                bounds = method.intervals(pool.resplit(order[:n], order[n:]), LEVELS)
                 shares.append([covered(both[order[n:]][:, moving], level).mean(axis=0) for level in bounds])
             yield name, " ".join(run), method.rank, n, np.array(shares)
     markers = np.flatnonzero(moving) // 3

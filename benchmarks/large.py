@@ -1,9 +1,9 @@
-"""Does a large robot go through prepare and audit in under a minute and 2 GB?
+"""Measure the time and memory of prepare and audit on a large robot: under a minute and 2 GB?
 
-    python benchmarks/large.py [--rows 1000000] [--commands 6] [--markers 10] [--format parquet] [--keep FOLDER]
+    python -m benchmarks.large [--rows 1000000] [--commands 6] [--markers 10] [--format parquet] [--keep FOLDER]
 
-Writes a table of a made-up robot as somebody's own file, Parquet or CSV, and runs the real workflow on it, one job
-after the other, up to the data card. Prints the wall and CPU seconds of the whole call, and the largest memory that any
+Writes a table of a made-up robot as a local file, Parquet or CSV, and runs the real workflow on it, one job after the
+other, up to the data card. Prints the wall and CPU seconds of the whole call, and the largest memory that any
 one process of it held (Snakemake, retrieve, prepare, audit). The exit status is 1 beyond `--limit` seconds or 2 GB.
 """
 
@@ -16,10 +16,11 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+from typing import Any
 
 import yaml
-from audit import made_up
 
+from benchmarks.audit import made_up
 from softkin.data.table import to_table
 
 HOUSE = Path(__file__).resolve().parent.parent
@@ -35,7 +36,7 @@ def write_robot(folder: Path, options: argparse.Namespace) -> Path:
         table.to_csv(file, index=False, float_format="%.6g")
     else:
         table.to_parquet(file, index=False)
-    entry = {"title": "Large", "format": "table_file", "file": str(file), "position_unit": "mm"}
+    entry: dict[str, Any] = {"title": "Large", "format": "table_file", "file": str(file), "position_unit": "mm"}
     entry |= {"commands": "u[0-9]+", "positions": "m[0-9]+_[xyz]", "split": {"method": "random"}}
     configuration = folder / "large.yaml"
     configuration.write_text(yaml.safe_dump({"datasets": ["large"], "sources": {"large": entry}}))
@@ -44,7 +45,7 @@ def write_robot(folder: Path, options: argparse.Namespace) -> Path:
 
 
 def main() -> int:
-    """Run, measure, print."""
+    """Run, measure, print; the exit status is 1 beyond the limits."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--rows", type=int, default=1_000_000)
     parser.add_argument("--commands", type=int, default=6)

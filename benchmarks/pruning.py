@@ -1,10 +1,10 @@
-"""What does it cost, and save, that a trial is cut short unless it is nearly the best?
+"""CPU time and best score of studies that prune trials, by the share of trials that are kept.
 
-    python benchmarks/pruning.py [--dataset finger] [--models rf gb svr gp mlp] [--kept 100 50 10]
+    python benchmarks/pruning.py [--dataset finger] [--models svr gp] [--kept 100 50 10]
 
 Runs the study of the preset `tuned` of each model, as config/config.yaml has it, on a dataset of a finished run: once
-for each share `--kept` (percent) of the complete trials that a trial must be among to go on; 100 cuts none short.
-Prints the CPU seconds and the best score (mm).
+for each share `--kept` (percent) of the complete trials that a trial must be among to go on; 100 prunes none. Prints
+the pruned trials, the CPU seconds and the best score (mm).
 """
 
 from __future__ import annotations
@@ -18,40 +18,40 @@ import yaml
 
 from softkin.core.runs import TUNED
 from softkin.core.samples import TRAIN
+from softkin.data.split import has_standardised_norm
 from softkin.data.table import read_subset
 from softkin.models import MODELS
-from softkin.training.study import KEPT_PERCENT, TuningSettings
+from softkin.training.study import KEPT_PERCENT, StudyFile, TuningSettings
 from softkin.training.tune import Robot, SearchSettings, tune_model
 
 HOUSE = Path(__file__).parent.parent
 
 
 def main() -> None:
-    """Print a line per model and share."""
+    """Tune, and print a line per model and share."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--dataset", default="finger")
-    parser.add_argument("--models", nargs="+", default=["rf", "gb", "svr", "gp", "mlp"], choices=sorted(MODELS))
+    parser.add_argument("--models", nargs="+", default=list(MODELS), choices=list(MODELS))
     parser.add_argument("--kept", nargs="+", type=float, default=[100.0, 50.0, KEPT_PERCENT])
-    given = parser.parse_args()
+    arguments = parser.parse_args()
     config = yaml.safe_load((HOUSE / "config" / "config.yaml").read_text())
     tuning, seed = config["tuning"], config["seed"]
-    source = yaml.safe_load((HOUSE / "config" / "datasets.yaml").read_text())["sources"][given.dataset]
-    train = read_subset(HOUSE / "results" / given.dataset / "table.parquet", TRAIN)
+    source = yaml.safe_load((HOUSE / "config" / "datasets.yaml").read_text())["sources"][arguments.dataset]
+    train = read_subset(HOUSE / "results" / arguments.dataset / "table.parquet", TRAIN)
     print(f"{'model':<7}{'kept %':>7}{'pruned':>8}{'CPU s':>8}{'best mm':>11}")
-    for model in given.models:
-        for kept in given.kept:
+    for model in arguments.models:
+        for kept in arguments.kept:
             with tempfile.TemporaryDirectory() as folder, patch("softkin.training.study.KEPT_PERCENT", kept):
                 result, _ = tune_model(
                     train,
                     spec=MODELS[model],
                     preset=TUNED,
-                    robot=Robot(base=source.get("base"), standardised_norm="split" in source),
+                    robot=Robot(base=source.get("base"), standardised_norm=has_standardised_norm(source)),
                     settings=TuningSettings(tuning["n_trials"], tuning["n_folds"], tuning["max_rows"], seed),
                     search=SearchSettings(
                         {TUNED: tuning["n_trials"]}, [TUNED], tuning["max_markers"], [], config["target_spaces"]
                     ),
-                    study_file=Path(folder) / "study.db",
-                    code=[],
+                    file=StudyFile(Path(folder) / "study.db", []),
                     threads=1,
                 )
             pruned = (result.trials["state"] == "PRUNED").sum()

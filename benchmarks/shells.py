@@ -1,13 +1,13 @@
-"""Do intervals made from shells of `train` hold outside it, and how wide are they?
+"""Coverage and width in extrapolation of intervals made from outer shells of `train`, on stand-ins.
 
     python benchmarks/shells.py [--rows 400] [--seeds 2] [--copies 1] [--stuck 0]
 
-Simulates each stand-in with so many rows, seed by seed, fits every model in either target space with the first
-parameters that its studies try, and puts `auto` around it: coverage of extrapolation at 90 % and the Winkler score over
-the oracle's. Beside it the same, stretched by the method normalised by distance where that is wider. Prints a line per
-robot, space and model (means over seeds), and in how many cases 90 % are covered at no more than 1.5 times the
-oracle's score. `--rows 40 --copies 10 --seeds 4` makes robots of as few distinct commands as ELASTICA has,
-`--stuck 0.01` such as stay in the pose before in 1 % of all rows, as ABAQUS does.
+Simulates each stand-in with `--rows` rows, seed by seed, fits every model in either target space with the
+parameters of its first trial, and puts the intervals `auto` around it: coverage of extrapolation at 90 % and the
+Winkler score over the oracle's. Beside it the same intervals, where those normalised by distance are wider stretched to
+them. Prints a line per robot, space and model (means over seeds), and in how many cases 90 % are covered at no more
+than 1.5 times the oracle's score. `--rows 40 --copies 10 --seeds 4` makes robots of as few distinct commands as
+ELASTICA has, `--stuck 0.01` robots that stay in the pose before in 1 % of all rows, as ABAQUS does.
 """
 
 from __future__ import annotations
@@ -16,8 +16,10 @@ import argparse
 import itertools
 import logging
 import warnings
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from optuna.trial import FixedTrial
 
 from softkin.core.metrics.interval import covered, winkler_scores
@@ -27,9 +29,9 @@ from softkin.data.standins import STANDINS
 from softkin.data.standins.simulating import simulate
 from softkin.models import MODELS
 from softkin.models.target_spaces import TARGET_SPACES
-from softkin.training.fit import fit_quietly, kinematic_model
+from softkin.training.kinematic_model import FitSettings, fitted_model
 from softkin.training.refit_shells import cores_and_shells
-from softkin.uncertainty.calibration_data import Evidence, Shell, ShellEvidence
+from softkin.uncertainty.calibration_data import PointCalibration, Shell, ShellCalibration
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 
 LEVEL, LARGEST_RATIO = 0.9, 1.5
@@ -37,12 +39,13 @@ CORE_SHARES = (0.6, 0.7, 0.8, 0.9)
 SHAPES = ("auto", "stretched by distance")
 
 
-def judged(subsets: dict[str, Samples], model: str, space: str, copies: int) -> dict[str, tuple[float, float]]:
+def scores(subsets: dict[str, Samples], model: str, space: str, copies: int) -> dict[str, tuple[float, float]]:
     """Coverage of extrapolation, and Winkler score over the oracle's, by shape of the interval."""
     spec = MODELS[model]
     params = spec.search_space(FixedTrial(dict(spec.first_trials[0])))
+    settings = FitSettings(params, skip_constant=True, seed=0, threads=1, target_space=space)
     train, validation = subsets[TRAIN], subsets[VALIDATION]
-    if copies > 1:  # all of the inside, again and again, in calibration too
+    if copies > 1:  # copies of all rows in-domain, in calibration too
         parts = [subsets[name] for name in (TRAIN, VALIDATION, TEST)]
         commands, positions = (
             np.concatenate([getattr(part, name) for part in parts]) for name in ("commands", "positions")
@@ -50,14 +53,12 @@ def judged(subsets: dict[str, Samples], model: str, space: str, copies: int) -> 
         train = validation = Samples(np.tile(commands, (copies, 1)), np.tile(positions, (copies, 1)))
     new = subsets[EXTRAPOLATION]
 
-    def fitted(rows: np.ndarray) -> object:
-        estimator = kinematic_model(spec, params, skip_constant=True, seed=0, threads=1, target_space=space)
-        fit_quietly(estimator, Samples(train.commands[rows], train.positions[rows]), 1)
-        return estimator
+    def fitted(rows: NDArray[np.intp]) -> Any:
+        return fitted_model(spec, settings, Samples(train.commands[rows], train.positions[rows]))
 
     norm = command_norm(train.commands, standardised=False).of
     whole = fitted(np.arange(len(train)))
-    deployed = Evidence(
+    deployed = PointCalibration(
         whole.predict(validation.commands),
         validation.positions,
         whole.predict(new.commands),
@@ -74,7 +75,7 @@ def judged(subsets: dict[str, Samples], model: str, space: str, copies: int) -> 
         )
         for core, shell in cores_and_shells(norm(train.commands), float(norm(new.commands).max()), CORE_SHARES)
     ]
-    bounds = INTERVAL_METHODS["auto"].intervals(ShellEvidence(deployed, shells, norm), [LEVEL])[0]
+    bounds = INTERVAL_METHODS["auto"].intervals(ShellCalibration(deployed, shells, norm), [LEVEL])[0]
     grown = INTERVAL_METHODS["scp_distance"].intervals(deployed, [LEVEL])[0]
     wider = np.stack([np.minimum(bounds[..., 0], grown[..., 0]), np.maximum(bounds[..., 1], grown[..., 1])], axis=-1)
     off = np.quantile(np.abs(new.positions - deployed.new), LEVEL, axis=0, method="higher")
@@ -83,10 +84,10 @@ def judged(subsets: dict[str, Samples], model: str, space: str, copies: int) -> 
     least = winkler_scores(new.positions, oracle, LEVEL)[:, moving].mean()
     return {
         shape: (
-            float(covered(new.positions, found)[:, moving].mean()),
-            float(winkler_scores(new.positions, found, LEVEL)[:, moving].mean() / least),
+            float(covered(new.positions, intervals)[:, moving].mean()),
+            float(winkler_scores(new.positions, intervals, LEVEL)[:, moving].mean() / least),
         )
-        for shape, found in zip(SHAPES, (bounds, wider), strict=True)
+        for shape, intervals in zip(SHAPES, (bounds, wider), strict=True)
     }
 
 
@@ -99,14 +100,14 @@ def stuck(samples: Samples, share: float, seed: int) -> Samples:
 
 
 def main() -> None:
-    """Simulate, fit, judge, print."""
+    """Simulate, fit, score, and print a line per robot, target space and model."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--rows", type=int, default=400)
     parser.add_argument("--seeds", type=int, default=2)
     parser.add_argument("--copies", type=int, default=1)
     parser.add_argument("--stuck", type=float, default=0.0)
     parser.add_argument("--models", nargs="+", default=list(MODELS), choices=list(MODELS))
-    given = parser.parse_args()
+    arguments = parser.parse_args()
     warnings.filterwarnings("ignore")
     logging.disable(logging.CRITICAL)
     holds: dict[tuple[str, str], list[bool]] = {}
@@ -114,16 +115,16 @@ def main() -> None:
     for robot in STANDINS:
         simulated = [
             {
-                name: stuck(rows, given.stuck, seed)
-                for name, rows in simulate(robot, n_rows=given.rows, seed=seed).items()
+                name: stuck(rows, arguments.stuck, seed)
+                for name, rows in simulate(robot, n_rows=arguments.rows, seed=seed).items()
             }
-            for seed in range(given.seeds)
+            for seed in range(arguments.seeds)
         ]
-        for space, model in itertools.product(TARGET_SPACES, given.models):
-            found = [judged(subsets, model, space, given.copies) for subsets in simulated]
+        for space, model in itertools.product(TARGET_SPACES, arguments.models):
+            of_seeds = [scores(subsets, model, space, arguments.copies) for subsets in simulated]
             line = f"{robot:<26}{space:<11}{model:<7}"
             for shape in SHAPES:
-                pairs = [one[shape] for one in found]
+                pairs = [of_seed[shape] for of_seed in of_seeds]
                 coverage, ratio = np.mean(pairs, axis=0)
                 line += f"{coverage:>14.3f}, {ratio:>8.2f}"
                 holds.setdefault((robot, shape), []).extend(c >= LEVEL and r <= LARGEST_RATIO for c, r in pairs)

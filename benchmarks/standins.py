@@ -1,6 +1,6 @@
-"""How long do the stand-ins of the four default datasets take?
+"""Measure how long the stand-ins of the default datasets take to simulate.
 
-    python benchmarks/standins.py [--limit 60]
+    python -m benchmarks.standins [--limit 60]
 
 Simulates each with as many rows as config/datasets.yaml registers for the dataset in whose place it stands, one after
 the other in one process, and prints the seconds, the extent of the last marker and, in total, whether they stay under
@@ -32,7 +32,7 @@ def main() -> int:
     total = 0.0
     print(f"{'dataset':<18}{'stand-in':<26}{'rows':>6}{'seconds':>9}  last marker x, y, z (mm): lowest and highest")
     for dataset, source in sources.items():
-        if "standin" not in source:  # somebody's own robot
+        if "standin" not in source:  # a local file
             continue
         name = source["standin"]["robot"]
         with stopwatch() as watch:

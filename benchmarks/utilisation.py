@@ -1,15 +1,14 @@
-"""How well a run uses the machine: CPU seconds of fits over cores x wall seconds, and the ten slowest jobs.
+"""Measure how well a run uses the machine: CPU seconds of fits over cores x wall seconds, and the ten slowest jobs.
 
-    python benchmarks/utilisation.py --cores 2 [--configfile config/test.yaml]
+    python -m benchmarks.utilisation --cores 2 [--configfile config/test.yaml]
 
-Runs the workflow from nothing in a temporary folder (the default configuration takes about a quarter of an hour on
-two cores). CPU seconds are those of the tuning trials and of the fits themselves, imports and file work left out.
+Runs the workflow from nothing in a temporary folder (the default configuration takes a quarter of an hour on two
+cores). CPU seconds are those of the tuning trials and of the fits themselves, imports and file work left out.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
 import os
 import subprocess
 import sys
@@ -20,19 +19,20 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from softkin.core.files import read_json
+
 HOUSE = Path(__file__).resolve().parent.parent
-INTERVAL_RULES = ("tune_quantiles", "quantiles", "refit", "intervals", "score_intervals")
+INTERVAL_RULES = ("tune_quantiles", "fit_quantiles", "refit", "calibrate_intervals", "score_intervals")
 
 
 def fit_cpu_seconds(results: Path) -> float:
-    """CPU seconds that went into trials, fits and refits."""
-    trials = sum(json.loads(path.read_text())["cpu_seconds"] for path in results.glob("**/tuned/parameters.json"))
-    fits = sum(json.loads(path.read_text())["fit_cpu_seconds"] for path in results.glob("**/fit.json"))
-    refits = 0.0
+    """CPU seconds of trials, fits and refits."""
+    seconds = sum(float(read_json(path)["cpu_seconds"]) for path in results.glob("**/tuned/parameters.json"))
+    seconds += sum(float(read_json(path)["fit_cpu_seconds"]) for path in results.glob("**/fit.json"))
     for path in results.glob("*/refits.npz"):
         with np.load(path) as archive:
-            refits += float(archive["fit_cpu_seconds"])
-    return trials + fits + refits
+            seconds += float(archive["fit_cpu_seconds"])
+    return seconds
 
 
 def interval_share(benchmarks: Path) -> float:

@@ -1,8 +1,9 @@
-"""The gallery of the README: a few pictures and one table of a finished run.
+"""Write the gallery of docs/results.md: one table and a few pictures of a finished run.
 
-    python -m softkin.gallery [--results results] [--readme README.md]
+    python -m tools.gallery [--results results] [--page docs/results.md]
 
-copies the pictures into docs/gallery beside the README, and writes table and pictures between its two marks.
+Pictures are copied into the folder `gallery` beside the page; the table, its notes and the pictures with their captions
+are written between the page's two marks.
 """
 
 from __future__ import annotations
@@ -10,114 +11,153 @@ from __future__ import annotations
 import argparse
 import re
 import sys
+import textwrap
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 from PIL import Image
 
-from softkin.core.errors import SoftkinError
-from softkin.core.files import read_json, replacing, write_text
+from softkin.core.errors import DataError, SoftkinError
+from softkin.core.files import replacing, write_text
 from softkin.core.samples import EXTRAPOLATION, TEST
-from softkin.data.audit.findings import leaking_subsets
-from softkin.models import MODELS
-from softkin.reporting.tables.interval_choice import given_intervals
-from softkin.reporting.tables.paper_layout import PaperTable, format_number
+from softkin.data.audit.findings import leak_notes
+from softkin.reporting.tables.interval_choice import deployed_intervals
+from softkin.reporting.tables.numbers import length_text, share_text
 from softkin.training.selection import deployed
+from tools.finished_run import TITLES, FinishedRun, table
 
-#: What is shown, two side by side: (folder in results/, figure).
+#: The page that the gallery is part of.
+PAGE = Path("docs") / "results.md"
+FOLDER = "gallery"
+BEGIN, END = "<!-- gallery: written by `make gallery` -->", "<!-- end of gallery -->"
+#: (folder in results/, figure) of each picture; the first leads the README, too.
 PICTURES = (
-    ("abaqus", "robot"),
+    ("finger", "robot"),
+    ("finger", "workspace_predictions"),
     ("finger", "ranking"),
     ("abaqus", "position_curves"),
-    ("finger", "believed"),
 )
-#: A README is read on telephones as well.
+#: Pages are read on telephones as well.
 MAX_BYTES = 150_000
-BEGIN, END = "<!-- gallery: written by `make gallery` -->", "<!-- end of gallery -->"
-FOLDER = Path("docs") / "gallery"
+MAX_WIDTH = 120
+#: Findings of the audit on rows whose positions are wrong.
+GROSS_ERRORS = ("stuck_poses", "gross_outliers")
 
 
-def make_gallery(results: Path, readme: Path) -> None:
-    """Copy the pictures of `results`, and write the section of `readme` anew.
+def make_gallery(results: Path, page: Path) -> None:
+    """Copy the pictures of `results`, and write the gallery of `page` anew.
 
     Raises:
-        SoftkinError: the run has not made one of the files, or the README has no place for the gallery.
+        DataError: the run has not made one of the files.
+        SoftkinError: the page has no place for the gallery.
     """
-    text = readme.read_text(encoding="utf-8")
+    text = page.read_text(encoding="utf-8") if page.is_file() else ""
     if not re.search(f"{re.escape(BEGIN)}.*{re.escape(END)}", text, re.DOTALL):
-        raise SoftkinError(f"{readme}: no place for the gallery\n  mend: write the lines '{BEGIN}' and '{END}' into it")
-    cells = [_picture(results, folder, figure, readme.parent) for folder, figure in PICTURES]
-    rows = [f"| {left} | {right} |" for left, right in zip(cells[::2], cells[1::2], strict=True)]
-    section = "\n".join([BEGIN, robots_table(results).markdown(), rows[0], "| --- | --- |", *rows[1:], END])
+        raise SoftkinError("no place for the gallery", where=page, fix="write the page first: make results-page")
+    run = FinishedRun(results)
+    pictures = [_picture(run, dataset, figure, page.parent) for dataset, figure in PICTURES]
+    section = "\n\n".join([BEGIN, "## At a glance", robots_table(run), *map(_filled, notes(run)), *pictures, END])
     before, after = text.split(BEGIN)[0], text.split(END)[1]
-    write_text(readme, before + section + after)
+    write_text(page, before + section + after)
 
 
-def robots_table(results: Path) -> PaperTable:
-    """Per robot the chosen model, its errors, and how often its intervals hold `test`."""
-    tables = {name: pd.read_csv(_made(results / "tables" / f"{name}.csv")) for name in ("selection", "point_metrics")}
-    choice = pd.read_csv(_made(results / "tables" / "interval_choice.csv"))
-    scores = tables["point_metrics"]
-    scores = scores.set_index(["dataset", "model", "preset", "subset"])
+def robots_table(run: FinishedRun) -> str:
+    """A Markdown table with a row per robot: the deployed model, its errors, and width and coverage of its intervals.
+
+    The robot of the largest error comes first; those whose test scores leak come last.
+    """
+    choice = deployed_intervals(run.tables.read("interval_choice"))
     rows = []
-    for robot in deployed(tables["selection"]).itertuples():
-        about = read_json(_made(results / robot.dataset / "dataset.json"))
-        leaks = leaking_subsets(read_json(_made(results / robot.dataset / "data_card.json")))
-        test, outside = (
-            scores.loc[(robot.dataset, robot.model, robot.preset, subset)] for subset in (TEST, EXTRAPOLATION)
-        )
-        interval = given_intervals(choice).loc[robot.dataset]
-        errors = (test["euclidean_mean_mm"], test["euclidean_p95_mm"], outside["euclidean_mean_mm"])
-        rows.append(
-            [
-                about["title"] + (" (LEAK: test rows stand in train)" if TEST in leaks else ""),
-                MODELS[robot.model].title,
-                *map(format_number, errors),
-                format_number(interval["test_mean_width_mm"]),
-                f"{interval['test_coverage']:.1%}",
-                f"{interval['extrapolation_coverage']:.1%}",
-            ]
-        )
-    level = f"{choice['confidence_level'].iloc[0]:.0%}"
-    header = ["Robot", "Chosen model", "Mean error of a marker, test (mm)", "95 % below (mm)", "Extrapolation (mm)"]
-    header += [f"Width of its {level} intervals (mm)", "They cover, test", "Extrapolation"]
-    return PaperTable("What a run ends with", header, rows, set(), [("", len(rows))])
+    for robot in _deployed(run):
+        test, extrapolation = robot["scores"].loc[TEST], robot["scores"].loc[EXTRAPOLATION]
+        interval = choice.loc[robot["dataset"]]
+        errors = (test["euclidean_p95_mm"], test["euclidean_mean_mm"], extrapolation["euclidean_mean_mm"])
+        shares = (interval["test_coverage"], interval["extrapolation_coverage"])
+        cells = [*map(length_text, (*errors, interval["test_mean_width_mm"])), *map(share_text, shares)]
+        title = robot["title"] + (" (leak)" if robot["leak"] else "")
+        rows.append([title, TITLES.models[robot["model"]], *cells])
+    level = share_text(choice["confidence_level"].iloc[0], 0)
+    header = ["Robot", "Deployed model", "Marker error on test, 95 % below", "Its mean", "Mean on extrapolation"]
+    header += [f"Mean width of its {level} intervals", "Coverage on test", "Coverage on extrapolation"]
+    return table(header, rows)
 
 
-def _picture(results: Path, folder: str, figure: str, beside: Path) -> str:
-    """Copy one picture; the cell of Markdown that shows it."""
-    source = _made(results / folder / "figures" / f"{figure}.png")
-    index = pd.read_csv(_made(source.parent / "index.csv")).set_index("figure")
-    title = index["title"].get(figure, figure)
-    title = title if isinstance(title, str) else title.iloc[0]  # a row for each run that the figure shows
-    target = FOLDER / f"{folder}_{figure}.png"
+def notes(run: FinishedRun) -> list[str]:
+    """What a reader of the table must know: which means a few rows carry, and which scores leak."""
+    sentences = []
+    for robot in _deployed(run):
+        name = run.name(robot["dataset"])
+        test = robot["scores"].loc[TEST]
+        if test["euclidean_mean_mm"] > test["euclidean_p95_mm"]:
+            sentences.append(
+                f"*{name}*: a few rows carry the mean on test, which exceeds what 95 % of the errors lie below"
+                f"{_gross_errors(run, robot['dataset'])}. Read the 95 % figure."
+            )
+        if robot["leak"]:
+            sentences.append(f"*{name}*: {robot['leak']}")
+    return sentences
+
+
+def _deployed(run: FinishedRun) -> list[dict[str, Any]]:
+    """Of each robot dataset, title, deployed model, its scores by subset, and what leaks into test ("" for none)."""
+    scores = run.tables.read("point_metrics").set_index(["dataset", "model", "preset", "subset"]).sort_index()
+    robots = [
+        {
+            "dataset": row.dataset,
+            "title": run.description(row.dataset)["title"],
+            "model": row.model,
+            "scores": scores.loc[(row.dataset, row.model, row.preset)],
+            "leak": leak_notes(run.card(row.dataset)).get(TEST, ""),
+        }
+        for row in deployed(run.tables.read("selection")).itertuples()
+    ]
+    return sorted(robots, key=lambda robot: (bool(robot["leak"]), -robot["scores"].loc[TEST, "euclidean_p95_mm"]))
+
+
+def _gross_errors(run: FinishedRun, dataset: str) -> str:
+    """How many rows of test the data card calls gross errors; empty where it calls none so."""
+    findings = [finding for finding in run.card(dataset)["findings"] if finding["code"] in GROSS_ERRORS]
+    rows = {row for finding in findings for row in finding["rows"].get(TEST, ())}
+    n_rows = run.description(dataset)["rows"][TEST]
+    return f": {len(rows)} of its {n_rows} rows are gross errors, such as failed simulations" if rows else ""
+
+
+def _picture(run: FinishedRun, dataset: str, figure: str, beside: Path) -> str:
+    """Copy one picture into the gallery; the Markdown that shows it above its caption."""
+    source = run.results / dataset / "figures" / f"{figure}.png"
+    for path in (source, source.parent / "index.csv"):
+        if not path.is_file():
+            raise DataError("no such file", where=path, fix="run the default configuration first: make run")
+    index = pd.read_csv(source.parent / "index.csv").drop_duplicates("figure").set_index("figure")
+    title, caption = index.loc[figure, ["title", "caption"]]
+    target = Path(FOLDER) / f"{dataset}_{figure}.png"
     (beside / FOLDER).mkdir(parents=True, exist_ok=True)
     with Image.open(source) as image, replacing(beside / target) as temporary:
         _save_small(image.convert("RGB"), temporary)
-    return f"![{title}, {folder}]({target.as_posix()})"
+    name = run.name(dataset)
+    return f"### {title}: {name}\n\n![{title}, {name}]({target.as_posix()})\n\n{_filled(caption)}"
 
 
 def _save_small(image: Image.Image, path: Path) -> None:
-    """At most `MAX_BYTES`: with 256 colours and, where that is not enough, smaller."""
+    """Save at most `MAX_BYTES`: with 256 colours and, where that is not enough, smaller."""
     image.quantize(256, dither=Image.Dither.NONE).save(path, format="png", optimize=True)
     if path.stat().st_size > MAX_BYTES:
         _save_small(image.resize((image.width * 9 // 10, image.height * 9 // 10), Image.Resampling.LANCZOS), path)
 
 
-def _made(path: Path) -> Path:
-    if not path.is_file():
-        raise SoftkinError(f"{path} is not there\n  mend: run the default configuration first: make run")
-    return path
+def _filled(text: str) -> str:
+    return textwrap.fill(text, MAX_WIDTH, break_long_words=False, break_on_hyphens=False)
 
 
 def main() -> int:
     """Print the error, if any; return the exit status."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--results", type=Path, default=Path("results"))
-    parser.add_argument("--readme", type=Path, default=Path("README.md"))
+    parser.add_argument("--page", type=Path, default=PAGE)
     options = parser.parse_args()
     try:
-        make_gallery(options.results, options.readme)
+        make_gallery(options.results, options.page)
     except SoftkinError as error:
         print(error, file=sys.stderr)
         return 1

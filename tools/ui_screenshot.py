@@ -1,6 +1,6 @@
 """Take docs/mlflow_ui.png: the models of a robot by error, as the MLflow UI of a finished run shows them.
 
-Wants the store in the working folder, the Python package playwright, and Chromium.
+Needs the store in the working folder, the Python package playwright, and Chromium.
 """
 
 from __future__ import annotations
@@ -18,20 +18,25 @@ from pathlib import Path
 from mlflow import MlflowClient
 from playwright.sync_api import sync_playwright
 
+from softkin.core.errors import StoreError
 from softkin.tracking.saved_view import TAG
 
 SECONDS_TO_START = 120
 
 
 def main() -> None:
-    """Serve, look, save."""
+    """Serve the store, take the picture and save it."""
     arguments = argparse.ArgumentParser(description=__doc__)
     arguments.add_argument("--dataset", default="finger")
     arguments.add_argument("--output", type=Path, default=Path("docs/mlflow_ui.png"))
-    given = arguments.parse_args()
+    options = arguments.parse_args()
     if not Path("mlflow.db").exists():
-        raise SystemExit("there is no mlflow.db here; mend: `make run` or `make store`")
-    experiment = MlflowClient("sqlite:///mlflow.db").get_experiment_by_name(given.dataset).experiment_id
+        raise SystemExit(str(StoreError("no such file", where="mlflow.db", fix="`make run` or `make store`")))
+    experiment = MlflowClient("sqlite:///mlflow.db").get_experiment_by_name(options.dataset)
+    if experiment is None:
+        raise SystemExit(
+            str(StoreError("no such experiment", where=options.dataset, fix="name a dataset of the run: --dataset"))
+        )
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         address = f"http://127.0.0.1:{free.getsockname()[1]}"
@@ -41,14 +46,14 @@ def main() -> None:
     try:
         wait_for(address)
         view = f"workflowType=machine_learning&viewStateShareKey={TAG.rsplit('.', 1)[1]}"
-        photograph(f"{address}/#/experiments/{experiment}/runs?{view}", given.output)
+        photograph(f"{address}/#/experiments/{experiment.experiment_id}/runs?{view}", options.output)
     finally:
         server.terminate()
         server.wait(30)
 
 
 def wait_for(address: str) -> None:
-    """Until the server answers."""
+    """Wait until the server answers."""
     until = time.monotonic() + SECONDS_TO_START
     while True:
         try:
@@ -61,7 +66,7 @@ def wait_for(address: str) -> None:
 
 
 def photograph(page: str, output: Path) -> None:
-    """The page, its assistant closed, once the table is there."""
+    """Save a picture of the page, its assistant closed, once the table of runs is there."""
     browsers = ("chromium", "chromium-browser", "google-chrome")
     chromium = next(filter(None, map(shutil.which, browsers)), None)
     with sync_playwright() as playwright:

@@ -10,7 +10,8 @@ from __future__ import annotations
 import sys
 
 import numpy as np
-from softkin.standins import STANDINS
+
+from softkin.data.standins import STANDINS
 
 N_ROWS = 600
 

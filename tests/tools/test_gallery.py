@@ -1,5 +1,8 @@
+"""The gallery of docs/results.md."""
+
 from __future__ import annotations
 
+import re
 import sys
 from pathlib import Path
 
@@ -8,16 +11,25 @@ import pandas as pd
 import pytest
 from PIL import Image
 
-from softkin.core.errors import SoftkinError
+from softkin.core.errors import DataError, SoftkinError
 from softkin.core.files import write_json
 from softkin.reporting.figures import FIGURES
 from tests.conftest import HOUSE
-from tools.gallery import BEGIN, END, FOLDER, MAX_BYTES, PICTURES, main, make_gallery
+from tools.finished_run import FinishedRun
+from tools.gallery import BEGIN, END, FOLDER, MAX_BYTES, MAX_WIDTH, PAGE, PICTURES, main, make_gallery, notes
+from tools.results_page import wrapped
+
+LEAK = {"code": "copied_commands", "severity": "leak", "subsets": ["test"], "rows": {}}
+STUCK = {"code": "stuck_poses", "severity": "warning", "subsets": ["train", "test"], "rows": {"test": [3, 5]}}
+#: Mean and 95 % quantile of the errors on test, mm.
+ERRORS = {"elastica": (4e-7, 2e-6), "finger": (0.5, 1.0), "abaqus": (0.4, 0.02)}
 
 
 @pytest.fixture
 def results(tmp_path: Path) -> Path:
-    """A run of two robots, one of them leaking; the first picture is noise, which no compression makes small."""
+    """A run of three robots: `elastica` leaks, and a few rows carry the mean of `abaqus`. The first picture is noise,
+    which no compression makes small.
+    """
     folder = tmp_path / "results"
     rng = np.random.default_rng(0)
     for place, (where, figure) in enumerate(PICTURES):
@@ -25,72 +37,108 @@ def results(tmp_path: Path) -> Path:
         figures.mkdir(parents=True, exist_ok=True)
         pixels = rng.integers(0, 256, (600, 900, 3)) if place == 0 else np.full((600, 900, 3), 200)
         Image.fromarray(pixels.astype(np.uint8)).save(figures / f"{figure}.png")
-        index = pd.DataFrame([{"figure": name, "title": FIGURES[name].title} for _, name in PICTURES] * 2)
-        index.to_csv(figures / "index.csv", index=False)
+        words = [{"figure": name, "title": FIGURES[name].title, "caption": FIGURES[name].caption} for name in FIGURES]
+        pd.DataFrame(words * 2).to_csv(figures / "index.csv", index=False)
     (folder / "tables").mkdir()
-    robots, scores, choices = ("arm", "finger"), [], []
-    for robot in robots:
-        leak = {"severity": "leak", "subsets": ["test"]}
-        write_json(folder / robot / "dataset.json", {"title": robot.upper()})
-        write_json(folder / robot / "data_card.json", {"findings": [leak] if robot == "arm" else []})
-        for subset, error in (("test", 0.5), ("extrapolation", 2.0)):
-            for preset, factor in (("paper", 9.0), ("tuned", 1.0)):
-                errors = {"euclidean_mean_mm": factor * error, "euclidean_p95_mm": 2 * factor * error}
+    scores, choices = [], []
+    for robot, (mean, p95) in ERRORS.items():
+        findings = {
+            "elastica": [LEAK | {"sentence": "2 of 40 rows.", "consequence": "Training error."}],
+            "abaqus": [STUCK],
+        }
+        write_json(folder / robot / "dataset.json", {"title": f"{robot.upper()} (made up)", "rows": {"test": 40}})
+        write_json(folder / robot / "data_card.json", {"findings": findings.get(robot, [])})
+        for subset, factor in (("test", 1.0), ("extrapolation", 4.0)):
+            for preset, worse in (("paper", 9.0), ("tuned", 1.0)):
+                errors = {"euclidean_mean_mm": worse * factor * mean, "euclidean_p95_mm": worse * factor * p95}
                 scores.append({"dataset": robot, "model": "gp", "preset": preset, "subset": subset} | errors)
-        for given, covers in ((True, 0.912), (False, 0.7)):
-            values = {
-                "confidence_level": 0.9,
-                "test_mean_width_mm": 1.5,
-                "test_coverage": covers,
-                "extrapolation_coverage": 0.88,
-            }
-            choices.append({"dataset": robot, "chosen": not given, "deployed": given} | values)
-    selection = [{"dataset": robot, "model": "gp", "preset": "tuned", "deployed": True} for robot in robots]
+        for is_deployed, coverage in ((True, 0.912), (False, 0.7)):
+            shares = {"test_coverage": coverage, "extrapolation_coverage": 0.88}
+            values = {"confidence_level": 0.9, "test_mean_width_mm": 3 * mean} | shares
+            choices.append({"dataset": robot, "chosen": not is_deployed, "deployed": is_deployed} | values)
+    selection = [{"dataset": robot, "model": "gp", "preset": "tuned", "deployed": True} for robot in ERRORS]
     for name, rows in (("selection", selection), ("point_metrics", scores), ("interval_choice", choices)):
         pd.DataFrame(rows).to_csv(folder / "tables" / f"{name}.csv", index=False)
     return folder
 
 
-def test_the_readme_gets_four_pictures_and_a_table(results: Path, tmp_path: Path) -> None:
-    readme = tmp_path / "README.md"
-    readme.write_text(f"# softkin\n\n{BEGIN}\nold\n{END}\n\nThe rest.\n")
-    make_gallery(results, readme)
-    text = readme.read_text()
-    assert text.startswith(f"# softkin\n\n{BEGIN}\n")
+@pytest.fixture
+def page(tmp_path: Path) -> Path:
+    """A page with a place for the gallery."""
+    path = tmp_path / "docs" / "results.md"
+    path.parent.mkdir()
+    path.write_text(f"# Results\n\n{BEGIN}\nold\n{END}\n\nThe rest.\n")
+    return path
+
+
+def test_the_page_gets_a_table_and_pictures_with_their_captions(results: Path, page: Path) -> None:
+    make_gallery(results, page)
+    text = page.read_text()
+    assert text.startswith(f"# Results\n\n{BEGIN}\n")
     assert text.endswith(f"{END}\n\nThe rest.\n")
-    assert "old" not in text
-    assert "| FINGER | Gaussian process | 0.500 | 1.00 | 2.00 | 1.50 | 91.2% | 88.0% |" in text
-    assert "| ARM (LEAK: test rows stand in train) |" in text
-    for folder, figure in PICTURES:
-        path = FOLDER / f"{folder}_{figure}.png"
-        assert f"![{FIGURES[figure].title}, {folder}]({path.as_posix()})" in text
-        assert (tmp_path / path).stat().st_size <= MAX_BYTES
-        with Image.open(tmp_path / path) as image:
+    assert "\nold\n" not in text
+    for dataset, figure in PICTURES:
+        path = Path(FOLDER) / f"{dataset}_{figure}.png"
+        assert f"({path.as_posix()})" in text
+        assert FIGURES[figure].caption in text.replace("\n", " ")
+        assert (page.parent / path).stat().st_size <= MAX_BYTES
+        with Image.open(page.parent / path) as image:
             assert image.width / image.height == pytest.approx(1.5, abs=0.01)
-    make_gallery(results, readme)
-    assert readme.read_text() == text
+    assert all(len(line) <= MAX_WIDTH for line in text.splitlines() if not line.startswith("|"))
+    make_gallery(results, page)
+    assert page.read_text() == text
+
+
+def test_the_table_leads_with_the_largest_error_and_ends_with_what_leaks(results: Path, page: Path) -> None:
+    make_gallery(results, page)
+    rows = [line for line in page.read_text().splitlines() if line.startswith("|")][2:]
+    finger, abaqus, elastica = rows
+    assert finger.startswith(
+        "| FINGER (made up) | Gaussian process | 1.00 mm | 0.500 mm | 2.00 mm | 1.50 mm | 91.2 % |"
+    )
+    assert abaqus.startswith("| ABAQUS (made up) | Gaussian process | 0.0200 mm | 0.400 mm |")
+    assert elastica.startswith("| ELASTICA (made up) (leak) | Gaussian process | 0.00000200 mm | below a nanometre |")
+    assert not any(re.search(r"\de-\d", row) for row in rows)
+
+
+def test_a_mean_that_few_rows_carry_and_a_leak_have_their_sentence(results: Path) -> None:
+    carried, leak = notes(FinishedRun(results))
+    assert carried.startswith("*ABAQUS*: a few rows carry the mean on test")
+    assert "2 of its 40 rows are gross errors" in carried
+    assert leak == "*ELASTICA*: LEAK: 2 of 40 rows. Training error."
+
+
+def test_writing_the_results_page_anew_keeps_the_gallery_as_it_is(results: Path, page: Path) -> None:
+    make_gallery(results, page)
+    assert wrapped(page.read_text()) + "\n" == page.read_text()
 
 
 def test_what_is_missing_is_named(
-    results: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    results: Path, page: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    readme = tmp_path / "README.md"
-    readme.write_text("# softkin\n")
-    with pytest.raises(SoftkinError, match="no place for the gallery"):
-        make_gallery(results, readme)
-    readme.write_text(f"{BEGIN}\n{END}\n")
+    before = page.read_text()
     missing = results / PICTURES[-1][0] / "figures" / f"{PICTURES[-1][1]}.png"
     missing.unlink()
-    monkeypatch.setattr(sys, "argv", ["gallery", "--results", str(results), "--readme", str(readme)])
+    with pytest.raises(DataError) as raised:
+        make_gallery(results, page)
+    assert raised.value.where == str(missing)
+    monkeypatch.setattr(sys, "argv", ["gallery", "--results", str(results), "--page", str(page)])
     assert main() == 1
-    assert capsys.readouterr().err == f"{missing} is not there\n  mend: run the default configuration first: make run\n"
-    assert readme.read_text() == f"{BEGIN}\n{END}\n"
+    assert capsys.readouterr().err == f"{missing}: no such file\n  fix: run the default configuration first: make run\n"
+    assert page.read_text() == before
+    page.write_text("# Results\n")
+    with pytest.raises(SoftkinError, match="no place for the gallery\n  fix: write the page first: make results-page"):
+        make_gallery(results, page)
 
 
-def test_our_own_readme_has_its_place_and_shows_figures_that_exist() -> None:
-    text = (HOUSE / "README.md").read_text()
-    assert text.index(BEGIN) < text.index(END)
-    for _, figure in PICTURES:
-        assert figure in FIGURES
-    shown = text.split(BEGIN)[1].split(END)[0].split("](")[1:]
-    assert all((HOUSE / link.split(")")[0]).is_file() for link in shown)
+def test_pictures_are_figures_that_are_drawn() -> None:
+    assert {figure for _, figure in PICTURES} <= set(FIGURES)
+    assert PICTURES[0] == ("finger", "robot")
+
+
+def test_our_own_results_page_has_a_gallery_whose_pictures_exist() -> None:
+    text = (HOUSE / PAGE).read_text()
+    gallery = text[text.index(BEGIN) : text.index(END)]
+    links = re.findall(r"\]\(([^)]*\.png)\)", gallery)
+    assert links == [f"{FOLDER}/{dataset}_{figure}.png" for dataset, figure in PICTURES]
+    assert all(((HOUSE / PAGE).parent / link).is_file() for link in links)

@@ -1,4 +1,4 @@
-"""One real run of the workflow on config/test.yaml, shared by all workflow tests: made-up data, nothing installed."""
+"""One real run of the workflow on config/test.yaml, on made-up data, shared by all workflow tests."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ MAX_SECONDS = 580
 
 @dataclass(frozen=True)
 class House:
-    """A copy of the house, a folder to work in, and the mirror it reads."""
+    """A copy of the repository (`root`), the folder in which it runs (`work`), and the mirror it reads."""
 
     root: Path
     work: Path
@@ -34,7 +34,7 @@ class House:
         more: Path | None = None,
         more_environment: Mapping[str, str] | None = None,
     ) -> subprocess.CompletedProcess[str]:
-        """Run it; `more` is one more configuration file."""
+        """Run the workflow; `more` is one more configuration file."""
         return subprocess.run(
             self.command(*options, cores=cores, work=work, more=more),
             env=self.environment() | dict(more_environment or {}),
@@ -46,14 +46,14 @@ class House:
         )
 
     def command(self, *options: str, cores: int = 2, work: Path | None = None, more: Path | None = None) -> list[str]:
-        """What `snakemake` runs."""
+        """The command line of a run."""
         command = [sys.executable, "-m", "snakemake", "--cores", str(cores)]
         command += ["--snakefile", str(self.root / "Snakefile"), "--directory", str(work or self.work), *options]
         configuration = [self.root / "config" / "test.yaml", self.mirror / "override.yaml", *([more] if more else [])]
         return [*command, "--configfile", *map(str, configuration)]
 
     def environment(self) -> dict[str, str]:
-        """The variables of a run."""
+        """The environment variables of a run."""
         return os.environ | {
             "PYTHONPATH": str(self.root / "src"),
             "SOFTKIN_DATA_MIRROR": str(self.mirror),
@@ -61,17 +61,17 @@ class House:
         }
 
     def jobs(self, more: Path | None = None) -> list[tuple[str, str]]:
-        """(rule, wildcards) of what a run would do now."""
+        """(rule, wildcards) of each job that a run would start now."""
         done = self.snakemake("--dry-run", more=more)
         assert done.returncode == 0, done.stdout + done.stderr
-        found, rule = [], ""
+        jobs, rule = [], ""
         for line in (done.stdout + done.stderr).splitlines():
             if line.startswith(("rule ", "localrule ")):
                 rule = line.split()[1].rstrip(":")
-                found.append((rule, ""))
+                jobs.append((rule, ""))
             elif "wildcards:" in line:
-                found[-1] = (rule, line.split("wildcards:")[1].strip())
-        return [job for job in found if job[0] != "all"]
+                jobs[-1] = (rule, line.split("wildcards:")[1].strip())
+        return [job for job in jobs if job[0] != "all"]
 
 
 def copy_house(root: Path) -> None:

@@ -1,8 +1,9 @@
-"""A robot of one's own goes from its file to its table, and again when the file changes."""
+"""A local file is read into its table, and again when the file changes."""
 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 import pytest
@@ -23,7 +24,7 @@ def test_an_edited_file_is_read_again_and_an_untouched_one_is_not(tmp_path: Path
     house = House(tmp_path / "house", tmp_path / "work", mirror)
     file = house.work / "data" / "arm.csv"
     lines = (HOUSE / "config" / "examples" / "bending_arm.csv").read_text().splitlines()
-    entry = {"title": "Arm", "format": "table_file", "file": "data/arm.csv", "position_unit": "mm"}
+    entry: dict[str, Any] = {"title": "Arm", "format": "table_file", "file": "data/arm.csv", "position_unit": "mm"}
     entry |= {"commands": "p[0-9]_bar", "positions": ".*_[xyz]", "split": {"method": "random"}}
     more = tmp_path / "more.yaml"
     more.write_text(yaml.safe_dump({"datasets": ["arm"], "sources": {"arm": entry}, "max_rows_per_subset": None}))

@@ -12,7 +12,7 @@ from tests.workflow.test_run import POOL
 pytestmark = pytest.mark.timeout(600)
 
 
-def test_the_page_tells_the_run(house: House) -> None:
+def test_the_page_shows_the_run(house: House) -> None:
     text = (house.work / "results" / "report.html").read_text(encoding="utf-8")
     assert len(text.encode()) < 10_000_000
     assert "campaign test" in text
@@ -28,5 +28,5 @@ def test_snakemakes_own_report_has_captions_and_categories(house: House, tmp_pat
     done = house.snakemake("--report", str(tmp_path / "report.html"))
     assert done.returncode == 0, done.stdout + done.stderr
     text = (tmp_path / "report.html").read_text(encoding="utf-8")
-    for part in ("Overview", "Tables", "Figures", "point_metrics.csv", "intervals_chosen", "job by job"):
+    for part in ("Overview", "Tables", "Figures", "point_metrics.csv", "intervals_deployed", "job by job"):
         assert part in text

@@ -16,6 +16,15 @@ from softkin.core.files import read_json
 from softkin.core.runs import PRESETS, SEARCHED
 from softkin.core.samples import SUBSETS
 from softkin.models import MODELS
+from softkin.uncertainty.calibration_data import (
+    CalibrationData,
+    FoldCalibration,
+    PointCalibration,
+    PredictiveCalibration,
+    QuantileCalibration,
+    ShellCalibration,
+    SpreadCalibration,
+)
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from softkin.uncertainty.labelled import LABELLED_METHODS
 from tests.conftest import HOUSE
@@ -28,7 +37,10 @@ POOL = {name: MODELS[name] for name in SMALL["models"]}
 CHEAP = [name for name, spec in POOL.items() if spec.is_cheap]
 WITH_SPREAD = [name for name, spec in POOL.items() if spec.spread]
 PREDICTIVE = [name for name, spec in POOL.items() if spec.is_predictive]
-INTERVAL_STAGES = {"intervals", "score_intervals", "score_outside", "figures", "calibrated_model"}
+INTERVAL_STAGES = {
+    *("calibrate_intervals", "score_intervals", "score_extrapolation"),
+    *("draw_figures", "build_calibrated_model"),
+}
 TIMINGS = ["fit_seconds", "predict_us_per_row"]
 
 
@@ -80,13 +92,18 @@ def test_interval_metrics_have_a_row_for_everything(house: House) -> None:
     assert not table.duplicated(keys).any()
     rows = table["interval_method"].value_counts().to_dict()
     runs, presets = len(POOL) * len(PRESETS), len(PRESETS)
-    around = {"predictions": runs, "spreads": presets * len(WITH_SPREAD), "predictive": presets * len(PREDICTIVE)}
-    # Learners of quantiles, and cheap models refitted, in the presets paper and tuned.
-    around |= {"quantiles": 2 * len(SMALL["quantile_models"]), "folds": 2 * len(CHEAP)}
-    on_shells = [name for name in SMALL["interval_methods"] if INTERVAL_METHODS[name].on == "shells"]
+    n_runs: dict[type[CalibrationData], int] = {
+        PointCalibration: runs,
+        SpreadCalibration: presets * len(WITH_SPREAD),
+        PredictiveCalibration: presets * len(PREDICTIVE),
+        # In the presets paper and tuned only:
+        QuantileCalibration: 2 * len(SMALL["quantile_models"]),
+        FoldCalibration: 2 * len(CHEAP),
+    }
+    on_shells = [name for name in SMALL["interval_methods"] if INTERVAL_METHODS[name].calibrated_on is ShellCalibration]
     assert len({rows.pop(name) for name in on_shells}) == 1
     rest = [name for name in SMALL["interval_methods"] if name not in on_shells]
-    expected = {name: 2 * 2 * around[INTERVAL_METHODS[name].on] * 6 * 3 for name in rest}
+    expected = {name: 2 * 2 * n_runs[INTERVAL_METHODS[name].calibrated_on] * 6 * 3 for name in rest}
     assert rows == expected | dict.fromkeys(SMALL["regions"], 2 * 2 * runs * 3)
     engines = table[table["interval_method"].str.startswith("scp")].pivot(
         index=[key for key in keys if key != "interval_method"], columns="interval_method", values="winkler_mm"
@@ -108,14 +125,14 @@ def test_interval_metrics_have_a_row_for_everything(house: House) -> None:
     assert published["explanation"].str.contains("nearest single coordinate").all()
 
 
-def test_every_interval_outside_train_stands_beside_the_oracle(house: House) -> None:
+def test_every_interval_in_extrapolation_stands_beside_the_oracle(house: House) -> None:
     table = pd.read_csv(house.work / "results" / "tables" / "extrapolation_intervals.csv")
     runs = table.groupby("dataset")[["model", "preset"]].apply(lambda rows: set(map(tuple, rows.to_numpy())))
     for dataset in DATASETS:
         assert ("gb", "paper") in runs[dataset]
         assert ("huber", "outer") in runs[dataset]
         assert len(runs[dataset]) <= 3
-        assert (house.work / "results" / dataset / "figures" / "outside.png").is_file()
+        assert (house.work / "results" / dataset / "figures" / "extrapolation.png").is_file()
     assert set(LABELLED_METHODS) | {"scp_mapie", "scp_distance", "auto"} <= set(table["interval_method"])
     scored = table[table["refused"].isna()]
     oracle = scored[scored["interval_method"] == "oracle"]
@@ -145,18 +162,19 @@ def test_the_store_holds_a_child_run_per_model_and_preset(house: House) -> None:
     client = MlflowClient(f"sqlite:///{house.work / 'mlflow.db'}")
     for dataset in DATASETS:
         experiment = client.get_experiment_by_name(dataset)
+        assert experiment is not None
         runs = client.search_runs([experiment.experiment_id], max_results=1000)
         nested = [run for run in runs if run.data.tags["kind"] == "intervals"]
-        # SCP by two engines and by distance, and regions, on every run; by spread and the own interval on models that
-        # have one; CV+ on cheap models, QR and CQR on the learners, in two presets each; two on shells of the paper's
-        # run, the chosen one and the robust one
+        # SCP by two engines and by distance, and regions, around every run; SCP by spread and the model's own interval
+        # around models that have one; CV+ around cheap models, QR and CQR by quantile regressors, in two presets each;
+        # two methods calibrated on shells, around the paper's run, the chosen one and the robust one.
         with np.load(house.work / "results" / dataset / "shells.npz") as archive:
             on_shells = {name.rsplit("/", 1)[0] for name in archive.files if "/" in name}
         assert {"gb/paper", "huber/outer"} <= on_shells
         assert len(on_shells) <= 3
         around_models = 4 * len(POOL) * 3 + (len(WITH_SPREAD) + len(PREDICTIVE)) * 3 + len(CHEAP) * 2
-        on_learners = 2 * 2 * len(SMALL["quantile_models"])
-        assert len(nested) == around_models + on_learners + 2 * len(on_shells)
+        of_regressors = 2 * 2 * len(SMALL["quantile_models"])
+        assert len(nested) == around_models + of_regressors + 2 * len(on_shells)
         assert {run.data.tags["mlflow.parentRunId"] for run in nested} <= {run.info.run_id for run in runs}
         parents = [run for run in runs if "mlflow.parentRunId" not in run.data.tags]
         assert len(parents) == 1
@@ -192,7 +210,7 @@ def test_editing_a_model_reruns_its_jobs_and_no_others(house: House) -> None:
     assert {rule for rule, _ in per_model} == {"tune", "fit_paper", "fit_tuned", "predict"}
     assert all("model=mlp" in wildcards for _, wildcards in per_model)
     assert {rule for rule, _ in jobs} - {"tune", "fit_paper", "fit_tuned", "predict"} <= {
-        *("score", "tables", "campaign_figures", "report", "track"),
+        *("score_points", "build_tables", "draw_campaign_figures", "build_report", "track"),
     }
     assert house.jobs() == []
 
@@ -200,16 +218,16 @@ def test_editing_a_model_reruns_its_jobs_and_no_others(house: House) -> None:
 @pytest.mark.parametrize(
     ("module", "rules"),
     [
-        ("metrics/point.py", {"score", "figures", "tables", "track"}),
-        ("tables/published.py", {"tables"}),
+        ("core/metrics/point.py", {"score_points", "draw_figures", "build_tables", "track"}),
+        ("core/metrics/interval.py", INTERVAL_STAGES | {"build_tables", "track"}),
+        ("training/refit.py", INTERVAL_STAGES | {"refit", "build_tables", "track"}),
+        ("training/refit_spaces.py", {"refit_spaces", "score_points", "draw_figures", "build_tables", "track"}),
+        ("uncertainty/error_growth.py", INTERVAL_STAGES | {"build_tables", "track"}),
+        ("uncertainty/intervals/split_conformal_crepes.py", INTERVAL_STAGES | {"build_tables", "track"}),
+        ("uncertainty/regions/box.py", {"score_intervals", "draw_figures", "build_tables", "track"}),
+        ("uncertainty/labelled/adaptive.py", {"score_extrapolation", "draw_figures", "build_tables", "track"}),
+        ("reporting/tables/published.py", {"build_tables"}),
         ("tracking/store.py", {"track"}),
-        ("intervals/split_conformal_crepes.py", INTERVAL_STAGES | {"tables", "track"}),
-        ("regions/box.py", {"score_intervals", "figures", "tables", "track"}),
-        ("refitting.py", INTERVAL_STAGES | {"refit", "refit_shells", "refit_spaces", "score", "tables", "track"}),
-        ("growth.py", INTERVAL_STAGES | {"tables", "track"}),
-        ("refitting_spaces.py", {"refit_spaces", "score", "figures", "tables", "track"}),
-        ("outside/adaptive.py", {"score_outside", "figures", "tables", "track"}),
-        ("metrics/interval.py", INTERVAL_STAGES | {"tables", "track"}),
     ],
 )
 def test_editing_a_later_stage_refits_nothing(house: House, module: str, rules: set[str]) -> None:
@@ -218,7 +236,7 @@ def test_editing_a_later_stage_refits_nothing(house: House, module: str, rules: 
     file.write_text(original + "\n# edited\n")
     try:
         assert {rule for rule, _ in house.jobs()} == rules | (
-            {"campaign_figures", "report"} if "tables" in rules else set()
+            {"draw_campaign_figures", "build_report"} if "build_tables" in rules else set()
         )
     finally:
         file.write_text(original)
@@ -239,7 +257,7 @@ def test_more_trials_retune_and_keep_the_paper_preset(house: House, tmp_path: Pa
         (["--config", "models=[svm]"], "did you mean 'svr'?"),
     ],
 )
-def test_a_typo_is_told_and_stops_the_run(house: House, options: list[str], says: str) -> None:
+def test_a_typo_stops_the_run_with_its_likely_spelling(house: House, options: list[str], says: str) -> None:
     done = house.snakemake("--dry-run", *options)
     assert done.returncode != 0
     assert says in done.stdout + done.stderr
@@ -275,6 +293,6 @@ def test_bad_data_stop_with_a_message_and_lose_nothing(house: House, tmp_path: P
     assert (tmp_path / "results" / "elastica_2023_09" / "mlflow_runs.json").exists()
 
 
-def test_the_house_is_linted(house: House) -> None:
+def test_snakemake_finds_nothing_to_lint(house: House) -> None:
     done = house.snakemake("--lint")
     assert done.returncode == 0, done.stdout + done.stderr

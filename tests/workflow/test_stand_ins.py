@@ -1,4 +1,4 @@
-"""What runs when published data are out of reach."""
+"""What runs when published data cannot be reached."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from tests.workflow.conftest import House
 pytestmark = pytest.mark.timeout(600)
 
 
-def test_out_of_reach_a_stand_in_takes_the_place_and_the_published_data_return(house: House, tmp_path: Path) -> None:
-    """Nobody may take it for the real thing: another name, a title that says so, a warning before and after."""
+def test_a_stand_in_takes_the_place_of_unreachable_data_until_they_return(house: House, tmp_path: Path) -> None:
+    """A stand-in has another name, a title that says so, and a warning before and after the run."""
     (tmp_path / "mirror").mkdir()
     override = yaml.safe_load((house.mirror / "override.yaml").read_text())
     override["sources"]["finger"]["urls"] = []
@@ -28,10 +28,10 @@ def test_out_of_reach_a_stand_in_takes_the_place_and_the_published_data_return(h
     output = done.stdout + done.stderr
     assert done.returncode == 0, output[-3000:]
     assert output.count("STAND-INS: finger cannot be reached") == 2
-    about = read_json(tmp_path / "results" / "finger_standin" / "dataset.json")
-    assert about["origin"] == "stand-in"
-    assert "STAND-IN" in about["title"]
-    assert about["rows"] == dict(zip(SUBSETS, (120, 88, 89, 120), strict=True))
+    description = read_json(tmp_path / "results" / "finger_standin" / "dataset.json")
+    assert description["origin"] == "stand-in"
+    assert "STAND-IN" in description["title"]
+    assert description["rows"] == dict(zip(SUBSETS, (120, 88, 89, 120), strict=True))
     assert "STAND-IN" in (tmp_path / "results" / "report.html").read_text()
     assert "nothing was run that the paper has printed" in output
     fail = alone.snakemake("results/finger/table.parquet", "--config", "when_unreachable=fail")

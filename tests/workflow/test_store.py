@@ -36,8 +36,15 @@ def files_below(folder: Path, *, hashed: bool) -> dict[str, str]:
     return {path.relative_to(folder).as_posix(): sha256_of([path]) if hashed else "" for path in files}
 
 
-def local(uri: str) -> Path:
+def local(uri: str | None) -> Path:
+    assert uri is not None
     return Path(uri.removeprefix("file://"))
+
+
+def experiment_id(client: MlflowClient, name: str) -> str:
+    experiment = client.get_experiment_by_name(name)
+    assert experiment is not None
+    return str(experiment.experiment_id)
 
 
 def content(work: Path) -> dict[str, Any]:
@@ -60,7 +67,7 @@ def content(work: Path) -> dict[str, Any]:
                     for name in curves
                 },
                 "tags": tags,
-                "inputs": [(i.dataset.name, i.dataset.digest) for i in run.inputs.dataset_inputs],
+                "inputs": [(i.dataset.name, i.dataset.digest) for i in run.inputs.dataset_inputs] if run.inputs else [],
                 "models": len(run.outputs.model_outputs) if run.outputs else 0,
                 "artifacts": files_below(local(run.info.artifact_uri), hashed=True),
             }
@@ -68,6 +75,8 @@ def content(work: Path) -> dict[str, Any]:
         versions = client.search_model_versions(f"name = '{registered.name}'")
         shown[registered.name] = (registered.description, registered.aliases)
         for version in versions:
+            assert version.source is not None
+            assert version.run_id is not None
             logged = client.get_logged_model(version.source.removeprefix("models:/"))
             shown[f"{registered.name}/{version.version}"] = {
                 "description": version.description,
@@ -158,17 +167,16 @@ def test_a_server_takes_the_place_of_the_file(house: House, server: str, tmp_pat
             "results/finger/mlflow_runs.json", *options, more_environment={"MLFLOW_TRACKING_URI": server}
         )
         assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
-        experiment = MlflowClient(server).get_experiment_by_name("finger")
-        runs = MlflowClient(server).search_runs([experiment.experiment_id], max_results=1000)
+        runs = MlflowClient(server).search_runs([experiment_id(MlflowClient(server), "finger")], max_results=1000)
         logged.append({run.info.run_id for run in runs})
     assert logged[0] == logged[1]
     assert not (work / "mlflow.db").exists()
     assert not (work / "mlartifacts").exists()
     client = MlflowClient(server)
     local_store = MlflowClient(f"sqlite:///{house.work / 'mlflow.db'}")
-    there = local_store.search_runs([local_store.get_experiment_by_name("finger").experiment_id], max_results=1000)
+    local_runs = local_store.search_runs([experiment_id(local_store, "finger")], max_results=1000)
     assert {run.data.tags[KEY]: run.data.metrics for run in runs} == {
-        run.data.tags[KEY]: run.data.metrics for run in there
+        run.data.tags[KEY]: run.data.metrics for run in local_runs
     }
     (best,) = [run for run in runs if run.data.tags[KEY] == "test/finger/gp/tuned"]
     assert {file.path for file in client.list_artifacts(best.info.run_id)} >= {"figures", "model.joblib", "fit.json"}

@@ -1,4 +1,4 @@
-"""What a person sees: one screen on a terminal, plain lines in a pipe. Own runs: a finished one shows nothing."""
+"""The view of a run: one screen on a terminal, plain lines in a pipe. Each test has a run of its own."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def on_a_terminal(house: House, *options: str) -> str:
     try:
         while part := os.read(master, 65536):
             written += part
-    except OSError:  # how Linux says that nobody holds the other end any more
+    except OSError:  # Linux, once the other end is closed
         pass
     os.close(master)
     assert run.wait() == 0, written.decode()[-3000:]
@@ -49,7 +49,7 @@ def test_a_terminal_shows_one_quiet_screen(new_house: House) -> None:
     assert any("trial" in line and "of 4" in line for line in running)
     assert "localrule" not in shown
     assert "Finished jobid" not in shown
-    assert "tune finger gb: 4 of 4 trials" not in shown  # a job tells its log alone
+    assert "tune finger gb: 4 of 4 trials" not in shown  # a job writes to its log alone
     assert "4 of 4 trials" in (new_house.work / "results" / "logs" / "tune" / "finger" / "gb.log").read_text()
     assert shown.split("\033[J")[-1].startswith("softkin test: 4 of 4 jobs in ")
 
@@ -67,12 +67,12 @@ def test_a_pipe_gets_plain_lines_and_the_next_run_an_estimate(new_house: House) 
     benchmark = new_house.work / "results" / "benchmarks" / "fit_tuned" / "finger" / "gb.tsv"
     benchmark.write_text("s\th:m:s\n600.0\t0:10:00\n")
     again = new_house.snakemake(TARGET, "--forcerun", "tune")
-    told = [line for line in again.stderr.splitlines() if "] tune finger gb: " in line]
-    assert len(told) == 1
-    assert told[0].startswith("[1 of 2 jobs")
-    assert "about 10 min left" in told[0]
+    ended = [line for line in again.stderr.splitlines() if "] tune finger gb: " in line]
+    assert len(ended) == 1
+    assert ended[0].startswith("[1 of 2 jobs")
+    assert "about 10 min left" in ended[0]
 
 
-def test_who_asks_for_snakemakes_own_words_gets_them(new_house: House) -> None:
+def test_snakemakes_own_output_can_be_asked_for(new_house: House) -> None:
     done = new_house.snakemake("results/finger/table.parquet", "--printshellcmds")
     assert "localrule prepare:" in done.stderr

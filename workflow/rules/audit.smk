@@ -1,5 +1,5 @@
 # in:  the table of a dataset
-# out: its data card: what was found in the data before anything is fitted to them, as JSON and as a page to read
+# out: its data card: the findings of all checks, before anything is fitted to the data; as JSON and as a page to read
 rule audit:
     input:
         table="results/{dataset}/table.parquet",

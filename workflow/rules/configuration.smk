@@ -15,8 +15,8 @@ from softkin.models.quantile import QUANTILE_MODELS
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from softkin.uncertainty.regions import REGION_METHODS
 
-# A job has one core. What asks for none by itself (OpenMP, BLAS) would take all, and two such jobs side by side wait for
-# each other most of the time.
+# A job has one core. OpenMP and BLAS would take all of them, and two such jobs side by side wait for each other most of
+# the time.
 os.environ.update(OMP_NUM_THREADS="1")
 
 try:
@@ -56,13 +56,13 @@ def source(wildcards):
 
 
 def own_file(wildcards):
-    """The file of one's own that an entry without `urls` names: retrieved again when it changes."""
+    """The local file that an entry without `urls` names: retrieved again when it changes."""
     entry = source(wildcards)
     return [] if "urls" in entry or "robot" in entry else [entry["file"]]
 
 
 def robot(wildcards):
-    """What studies and fits must know of a robot: its base, and how the norm of a command is taken."""
+    """The params of studies and fits on a robot: its base, and whether command norms are standardised."""
     entry = source(wildcards)
     return {
         "base": entry.get("base"),
@@ -76,12 +76,12 @@ def max_fit_rows(wildcards):
 
 
 def tracking_uri():
-    """The store: MLFLOW_TRACKING_URI goes before the configuration."""
+    """Where the MLflow store is: MLFLOW_TRACKING_URI goes before the configuration."""
     return os.environ.get("MLFLOW_TRACKING_URI") or config["tracking_uri"]
 
 
 def warn_of_stand_ins():
-    """In colour, where there is a terminal to show it: nobody may take a simulated robot for the real thing."""
+    """Print which datasets are stand-ins, in colour on a terminal: nobody may take a simulated robot for the real one."""
     if STANDING_IN:
         text = warning(STANDING_IN)
         is_terminal = sys.stderr.isatty()

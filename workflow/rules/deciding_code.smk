@@ -1,8 +1,6 @@
-# The files of softkin that decide a rule's result: Snakemake does not see imports, it sees inputs. All are read off the
+# The files of softkin that decide a rule's result, as inputs: Snakemake does not see imports. All are read off the
 # imports, see src/softkin/core/imported_code.py; the registries' entries that a wildcard or the configuration names are
 # inputs of their own.
-import sys
-
 from softkin.core.imported_code import file_of, imported_code
 
 
@@ -14,10 +12,9 @@ def code_of(script):
 
 
 def entry_code(*functions):
-    """The files that define these functions of registry entries, with what they import."""
-    return imported_code(
-        *(sys.modules[function.__module__].__file__ for function in functions)
-    )
+    """The files that define these functions, partial ones too, of registry entries, with what they import."""
+    names = {getattr(function, "func", function).__module__ for function in functions}
+    return imported_code(*(file_of(name) for name in names))
 
 
 def model_code(wildcards):

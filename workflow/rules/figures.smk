@@ -15,8 +15,8 @@ rule draw_figures:
         interval_metrics="results/{dataset}/interval_metrics.csv",
         choice="results/{dataset}/interval_choice.csv",
         conditional="results/{dataset}/conditional_coverage.csv",
-        outside="results/{dataset}/extrapolation_intervals.csv",
-        spaces="results/{dataset}/target_spaces.csv",
+        extrapolation="results/{dataset}/extrapolation_intervals.csv",
+        target_spaces="results/{dataset}/target_spaces.csv",
         code=code_of("draw_figures"),
     output:
         report(

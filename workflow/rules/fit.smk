@@ -1,5 +1,5 @@
-# in:  the table of a dataset (rows of train only are read); for the tuned preset, the best parameters
-# out: the fitted model and the record of what it took
+# in:  the table of a dataset (rows of train only are read)
+# out: a model fitted with the paper's settings, and the record of what it took
 rule fit_paper:
     input:
         table="results/{dataset}/table.parquet",
@@ -26,7 +26,9 @@ rule fit_paper:
         "../scripts/fit_paper.py"
 
 
-# The models of all searched presets in one job: starting one costs more than most fits.
+# in:  the table of a dataset (rows of train only are read), and the best parameters of each searched preset
+# out: a model fitted with each, and the records of what they took
+# One job for all presets: starting one costs more than most fits.
 rule fit_tuned:
     input:
         table="results/{dataset}/table.parquet",
@@ -54,7 +56,7 @@ rule fit_tuned:
 
 # in:  the table of a dataset (rows of train are fitted on, commands of the others predicted); for the tuned preset, the
 #      best parameters
-# out: a fitted learner of quantiles, and its quantiles of validation, test and extrapolation
+# out: a fitted quantile regressor, and its quantiles of validation, test and extrapolation
 rule fit_quantiles:
     input:
         table="results/{dataset}/table.parquet",

@@ -29,7 +29,7 @@ TABLES = [
 ]
 
 
-# The presets that a study stands behind.
+# The presets whose parameters come from a study.
 SEARCHED_PRESETS = [preset for preset in config["presets"] if preset in SEARCHED]
 
 
@@ -46,7 +46,7 @@ def of_presets(name, presets=tuple(config["presets"])):
 
 
 def of_searched(name):
-    """One file of a model for each preset that a study stands behind."""
+    """One file of a model for each preset whose parameters come from a study."""
     return of_presets(name, SEARCHED_PRESETS)
 
 
@@ -56,7 +56,7 @@ def every_run(models=tuple(config["models"])):
 
 
 def searched_runs():
-    """[model, preset] of each run that a study stands behind."""
+    """[model, preset] of each run whose parameters come from a study."""
     return [run for run in every_run() if run[1] in SEARCHED]
 
 
@@ -75,7 +75,7 @@ def asks_for(trait):
     return any(getattr(method.calibrated_on, trait) for method in methods)
 
 
-# The models that are fitted in either target space, to tell what a space is worth.
+# The models that are fitted in either target space, so that the spaces can be compared.
 COMPARED = config["models"] * (
     OUTER in config["presets"] and len(config["target_spaces"]) > 1
 )
@@ -111,7 +111,7 @@ def stored_outputs(wildcards):
 
 
 def interval_params():
-    """What the interval rules are told."""
+    """The params that all interval rules share."""
     return {
         "methods": config["interval_methods"],
         "runs": every_run(),
@@ -122,7 +122,7 @@ def interval_params():
 
 
 def quantile_parameters(wildcards):
-    """For the tuned preset, what its study found."""
+    """The best parameters of a quantile regressor, for the tuned preset."""
     path = "results/{dataset}/quantiles/{quantile_model}/tuned/parameters.json"
     return expand(path, **wildcards) if wildcards.preset == TUNED else []
 
@@ -144,7 +144,7 @@ def every_study():
 
 
 def final_output():
-    """All that a complete campaign leaves."""
+    """The files that a complete campaign leaves."""
     return [
         REPORT,
         HEADLINE,

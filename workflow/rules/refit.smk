@@ -54,9 +54,9 @@ rule refit_shells:
         "../scripts/refit_shells.py"
 
 
-# in:  the table of a dataset (rows of train are fitted on, commands of test and extrapolation predicted), and what the
-#      searches by outer shells found
-# out: what every model predicts that is fitted in the target space which its search has not chosen
+# in:  the table of a dataset (rows of train are fitted on, commands of test and extrapolation predicted), and the
+#      best parameters by outer shells
+# out: what every model predicts when it is fitted in the target space that its study has not chosen
 rule refit_spaces:
     input:
         table="results/{dataset}/table.parquet",

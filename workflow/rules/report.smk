@@ -1,5 +1,5 @@
 # in:  the tables; the description, data card and figures of each dataset; what each job took and recorded
-# out: one page that tells the whole run, with everything inside
+# out: one page on the whole run, with its figures and tables in it
 rule build_report:
     input:
         tables=expand("results/tables/{name}", name=TABLES),

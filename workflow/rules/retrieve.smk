@@ -1,4 +1,4 @@
-# in:  nothing (the mirror or the internet), or a file of one's own
+# in:  nothing (the mirror or the internet), or a local file
 # out: the file of a dataset as it came, hash checked where a hash is registered
 rule retrieve:
     input:

@@ -61,7 +61,8 @@ rule score_intervals:
 
 
 # in:  the predictions of all models of a dataset, the intervals of all methods, the truth
-# out: how intervals do outside train, of a few models, those that need labels out there among them, beside the oracle
+# out: coverage and Winkler score in extrapolation of all methods around a few models, labelled methods among them, each
+#      beside the oracle
 rule score_extrapolation:
     input:
         table="results/{dataset}/table.parquet",

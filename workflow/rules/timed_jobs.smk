@@ -1,4 +1,4 @@
-# Which jobs are timed, and where they leave their time and their records: what the report tells of them.
+# Which jobs are timed, and where their times and records are: the report shows them.
 def timed_jobs():
     """[rule, dataset, model, preset] (empty: all of them), benchmark and records of each job that is timed."""
     searched = [[model, ""] for model in config["models"] if SEARCHED_PRESETS]

@@ -33,7 +33,7 @@ rule tune:
 
 
 # in:  the table of a dataset (rows of train only are read)
-# out: the best parameters of a learner of quantiles on it, and the table of all trials; the study lives in
+# out: the best parameters of a quantile regressor on it, and the table of all trials; the study lives in
 #      results/studies, as those of the models do
 rule tune_quantiles:
     input:

@@ -1,4 +1,4 @@
-# What a person sees while it runs: see src/softkin/cli/watching. No rule of its own.
+# The view of a run on the terminal, see src/softkin/cli/watching. No rule of its own.
 import time
 
 from softkin.cli.watching.progress import Job, Progress, in_order, measured_seconds
@@ -6,7 +6,7 @@ from softkin.cli.watching.view import SNAKEMAKES_OWN, View
 
 
 def jobs_to_do():
-    """Every job of this run, with what it took in the run before: read now, since a job that starts deletes that."""
+    """Every job of this run, with its seconds in the run before: read at the start, since a job that starts deletes them."""
     numbers = {workflow.dag.jobid(job): job for job in workflow.dag.needrun_jobs()}
     jobs = {
         number: Job(
@@ -22,7 +22,7 @@ def jobs_to_do():
 
 
 def watch():
-    """Show the run our way; Snakemake's own way where --quiet, --verbose or a logger plugin was asked for."""
+    """Show the run by softkin's view; by Snakemake's own where --quiet, --verbose or a logger plugin was asked for."""
     settings, logger = workflow.output_settings, workflow.logger_manager.logger
     own = [handler for handler in logger.handlers if handler.name == SNAKEMAKES_OWN]
     asked_otherwise = settings.quiet or settings.verbose or settings.printshellcmds
@@ -34,7 +34,7 @@ def watch():
 
 
 def stop_watching():
-    """Before anything is printed at the end."""
+    """End the view, before anything is printed at the end."""
     while VIEWS:
         VIEWS.pop().finish(workflow.logger_manager.logger)
 

@@ -1,4 +1,4 @@
-"""Rule build_report: one page that tells the run."""
+"""Rule build_report: one page on the run."""
 
 from pathlib import Path
 

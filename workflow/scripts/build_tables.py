@@ -4,7 +4,8 @@ from pathlib import Path
 
 from softkin.core.job import job
 from softkin.models import MODELS
-from softkin.reporting.tables.build import DatasetFiles, PublishedFiles, Tables, build_tables
+from softkin.reporting.tables.build import build_tables
+from softkin.reporting.tables.frames import DatasetFiles, PublishedFiles, read_tables
 from softkin.reporting.titles import Titles
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 
@@ -12,7 +13,7 @@ files, params = snakemake.input, snakemake.params
 kinds = ("point", "markers", "intervals", "choice", "conditional", "alarms", "extrapolation", "spaces")
 by_dataset = zip(*(files[kind] for kind in (*kinds, "description", "data_card")), strict=True)
 with job(snakemake.log[0], "build tables"):
-    tables = Tables(
+    tables = read_tables(
         {name: DatasetFiles(*of_dataset) for name, of_dataset in zip(params.sources, by_dataset, strict=True)},
         sources=params.sources,
         parameters={tuple(study): path for study, path in zip(params.studies, files.parameters, strict=True)},
@@ -21,8 +22,6 @@ with job(snakemake.log[0], "build tables"):
     )
     build_tables(
         tables,
-        sources=params.sources,
-        published_subsets=files.subsets,
         titles=Titles(
             {name: spec.title for name, spec in MODELS.items()},
             {name: method.title for name, method in INTERVAL_METHODS.items()},

@@ -7,9 +7,9 @@ from softkin.training.fit import fit
 from softkin.training.kinematic_model import FitSettings
 
 dataset, model = snakemake.wildcards.dataset, snakemake.wildcards.model
-files = zip(snakemake.input.parameters, snakemake.output.models, snakemake.output.records, strict=True)
+of_presets = zip(snakemake.input.parameters, snakemake.output.models, snakemake.output.records, strict=True)
 with job(snakemake.log[0], f"fit {dataset} {model} tuned"):
-    for parameters, fitted, record in files:
+    for parameters, fitted, record in of_presets:
         best = read_json(parameters)
         fit(
             snakemake.input.table,

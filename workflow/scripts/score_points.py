@@ -4,24 +4,24 @@ from softkin.core.job import job
 from softkin.core.runs import Run
 from softkin.evaluation.score_points import score, score_spaces
 
-dataset = snakemake.wildcards.dataset
-files = zip(snakemake.input.predictions, snakemake.input.fit, snakemake.input.predict, strict=True)
+dataset, files, params = snakemake.wildcards.dataset, snakemake.input, snakemake.params
+of_runs = zip(params.runs, files.predictions, files.fit, files.predict, strict=True)
 with job(snakemake.log[0], f"score points {dataset}"):
     score(
-        snakemake.input.table,
+        files.table,
         dataset=dataset,
         runs={
             Run(*run): {"predictions": predictions, "fit": fit, "predict": predict}
-            for run, (predictions, fit, predict) in zip(snakemake.params.runs, files, strict=True)
+            for run, predictions, fit, predict in of_runs
         },
         point=snakemake.output.point,
         markers=snakemake.output.markers,
     )
     score_spaces(
-        snakemake.input.table,
+        files.table,
         dataset=dataset,
-        parameters=dict(zip(snakemake.params.models, snakemake.input.parameters, strict=True)),
-        chosen=dict(zip(snakemake.params.models, snakemake.input.chosen, strict=True)),
-        others=next(iter(snakemake.input.other_spaces), None),
+        parameters=dict(zip(params.models, files.parameters, strict=True)),
+        chosen=dict(zip(params.models, files.chosen, strict=True)),
+        others=next(iter(files.other_spaces), None),
         output=snakemake.output.spaces,
     )

@@ -10,7 +10,7 @@ from softkin.training.tune import PresetFiles, Robot, SearchSettings, tune_table
 params, output = snakemake.params, snakemake.output
 dataset, model, tuning = snakemake.wildcards.dataset, snakemake.wildcards.model, snakemake.params.tuning
 n_trials = {TUNED: tuning["n_trials"], OUTER: tuning["n_outer_trials"]}
-files = map(PresetFiles, params.studies, output.parameters, output.trials)
+of_presets = map(PresetFiles, params.studies, output.parameters, output.trials)
 with job(snakemake.log[0], f"tune {dataset} {model}"):
     tune_table(
         snakemake.input.table,
@@ -24,7 +24,7 @@ with job(snakemake.log[0], f"tune {dataset} {model}"):
             tuning["core_shares"],
             params.target_spaces,
         ),
-        files=dict(zip(params.presets, files, strict=True)),
+        files=dict(zip(params.presets, of_presets, strict=True)),
         code=[*snakemake.input.code, *snakemake.input.model_code],
         threads=snakemake.threads,
     )

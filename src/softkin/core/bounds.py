@@ -1,4 +1,4 @@
-"""Intervals and quantiles as tables, and back."""
+"""Intervals and quantiles as the tables that they are stored in, and back."""
 
 from __future__ import annotations
 
@@ -7,13 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 import pandas as pd
 
-from softkin.core.samples import Array
-from softkin.core.samples import coordinate_columns as coordinates_of
+from softkin.core.samples import Array, coordinate_columns
 
 
 def bounds_frame(bounds: Array, subset: str, confidence_level: float) -> pd.DataFrame:
-    """(n_rows, n_coordinates, 2) as a table: subset, confidence_level, lower_m1_x.., upper_m1_x.. (mm)."""
-    names = coordinates_of(bounds.shape[1] // 3)
+    """Bounds (n_rows, n_coordinates, 2) in mm as a table: subset, confidence_level, lower_m1_x, ..., upper_m1_x, ..."""
+    names = coordinate_columns(bounds.shape[1] // 3)
     columns = [f"{bound}_{name}" for bound in ("lower", "upper") for name in names]
     frame = pd.DataFrame(np.hstack([bounds[..., 0], bounds[..., 1]]), columns=columns)
     frame.insert(0, "subset", subset)
@@ -22,7 +21,7 @@ def bounds_frame(bounds: Array, subset: str, confidence_level: float) -> pd.Data
 
 
 def read_bounds(frame: pd.DataFrame, subset: str, confidence_levels: Sequence[float]) -> Array:
-    """The inverse of `bounds_frame`: (n_levels, n_rows, n_coordinates, 2) in mm."""
+    """Bounds (n_levels, n_rows, n_coordinates, 2) in mm of one subset, out of tables made by `bounds_frame`."""
     levels = []
     for level in confidence_levels:
         rows = frame[(frame["subset"] == subset) & (frame["confidence_level"] == level)]

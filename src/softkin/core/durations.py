@@ -1,10 +1,10 @@
-"""Durations as people say them."""
+"""Durations as text."""
 
 from __future__ import annotations
 
 
 def readable(seconds: float) -> str:
-    """'2 h 5 min', '3 min 7 s', '4.2 s'."""
+    """A measured duration in its two largest units: '2 h 5 min', '3 min 7 s', '4.2 s'."""
     if seconds < 60:
         return f"{seconds:.1f} s"
     minutes, rest = divmod(round(seconds), 60)
@@ -12,7 +12,7 @@ def readable(seconds: float) -> str:
 
 
 def roughly(seconds: float) -> str:
-    """No finer than an estimate deserves: 'under a minute', '14 min', '2 h 5 min'."""
+    """An estimated duration, no finer than a minute: 'under a minute', '14 min', '2 h 5 min'."""
     minutes = round(seconds / 60)
     if minutes < 1:
         return "under a minute"

@@ -1,4 +1,4 @@
-"""Writing files so that a reader never sees half of one, and hashing them."""
+"""Write files in one step, so that a reader never sees half of one; read JSON; hash files."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from typing import Any
 
 @contextmanager
 def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
-    """Give a temporary path beside `path`; rename it into place when the block ends well, delete it otherwise."""
+    """Yield a temporary path beside `path`; rename it into place when the block succeeds, delete it otherwise."""
     final = Path(path)
     final.parent.mkdir(parents=True, exist_ok=True)
     temporary = final.with_name(f".{final.name}.{os.getpid()}.part")
@@ -41,7 +41,7 @@ def read_json(path: str | os.PathLike[str]) -> Any:
 
 
 def sha256_of(paths: Iterable[str | os.PathLike[str]]) -> str:
-    """SHA-256 (hex) over the contents of `paths`, each with its file name and size, in the order given."""
+    """SHA-256 (hex) over the contents of `paths`, each with its file name and size, in that order."""
     digest = hashlib.sha256()
     for path in map(Path, paths):
         content = path.read_bytes()

@@ -1,4 +1,4 @@
-"""What every workflow script needs around its one call: a log, clear errors, one thread per core it was given."""
+"""The frame around the one call of a workflow script: its log, its error messages, its stopwatch."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from softkin.core.errors import SoftkinError
 
 logger = logging.getLogger("softkin")
 
-#: Set while `watching.view` draws its screen: what jobs tell goes to their logs alone, or it would tear the screen.
+#: Environment variable, set while `cli.watching` draws its screen: jobs then write to their logs alone.
 ON_A_SCREEN = "SOFTKIN_ON_A_SCREEN"
 
 
@@ -24,8 +24,8 @@ def job(log: str, label: str) -> Iterator[None]:
     """Run a job: messages go to the file `log` and, from level INFO, to the terminal, marked with `label`. Under
     `ON_A_SCREEN` nothing goes to the terminal, and what libraries write to it goes to the file.
 
-    A `SoftkinError` ends the job with its message alone and exit status 1; anything else is a defect of ours and
-    keeps its traceback, in the log file too.
+    A `SoftkinError` ends the job with its message alone and exit status 1; any other exception is a defect of softkin
+    and keeps its traceback, also in the log file.
     """
     Path(log).parent.mkdir(parents=True, exist_ok=True)
     file = Path(log).open("w", encoding="utf-8")  # noqa: SIM115 (closed below, after the handlers that write to it)
@@ -60,7 +60,7 @@ def job(log: str, label: str) -> Iterator[None]:
 
 @contextmanager
 def _terminal_into(file: int) -> Iterator[None]:
-    """Whatever this process and its children write to standard output and error goes to the open `file`."""
+    """Send what this process and its children write to standard output and error to the open `file`."""
     kept = {number: os.dup(number) for number in (1, 2)}
     sys.stdout.flush()
     try:
@@ -84,7 +84,7 @@ class Stopwatch:
 
 @contextmanager
 def stopwatch() -> Iterator[Stopwatch]:
-    """Time a block."""
+    """Measure the wall and CPU seconds of a block."""
     watch, wall, cpu = Stopwatch(), time.perf_counter(), time.process_time()
     try:
         yield watch

@@ -1,4 +1,4 @@
-"""Which rows are equal, bounded samples of rows, and commands on one scale: what several checks of the audit need."""
+"""Rows of a dataset: groups of equal rows, seeded samples of rows, subsets stacked and split, the scale of commands."""
 
 from __future__ import annotations
 
@@ -37,8 +37,8 @@ def stacked_positions(samples: Mapping[str, Samples], coordinates: NDArray[np.bo
 
 
 def row_groups(values: Array) -> Indices:
-    """Number (n_rows,) from 0 of the distinct row that each row of `values` (n_rows, n_columns) is, in order of
-    appearance. Bits count, but 0.0 equals -0.0.
+    """Number (n_rows,) of the distinct row that each row of `values` (n_rows, n_columns) equals, from 0 in order of
+    appearance. Rows are equal when all bits are, but 0.0 equals -0.0.
 
     Rows are compared by a hash of 64 bits: among a million distinct rows, two share one with a probability of 3e-8.
     """
@@ -61,7 +61,7 @@ def repeats_an_earlier_row(groups: Indices) -> NDArray[np.bool_]:
 
 
 def shares_its_pose(poses: Indices, commands: Indices) -> NDArray[np.bool_]:
-    """Mask (n_rows,) of the rows whose pose stands at another command too, both given as groups."""
+    """Mask (n_rows,) of the rows whose pose stands at another command too; both arguments are `row_groups`."""
     pairs = np.unique(np.column_stack([poses, commands]), axis=0)
     return np.asarray((np.bincount(pairs[:, 0]) > 1)[poses])
 
@@ -80,6 +80,6 @@ def command_scale(train_commands: Array) -> Array:
 
 
 def split_by_subset(values: NDArray[np.generic], samples: Mapping[str, Samples]) -> dict[str, NDArray[np.generic]]:
-    """Values of the rows of all subsets, stacked in the order of `samples`, back to subset -> values."""
+    """Subset -> its `values`, out of those of all subsets stacked in the order of `samples`."""
     ends = np.cumsum([len(rows) for rows in samples.values()])[:-1]
     return dict(zip(samples, np.split(values, ends), strict=True))

@@ -1,4 +1,4 @@
-"""NumPy archives of arrays that belong to runs: the predictions of refitted models."""
+"""Archives (npz) of arrays that belong to runs: the predictions of refitted models."""
 
 from __future__ import annotations
 

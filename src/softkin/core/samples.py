@@ -17,7 +17,7 @@ Params = dict[str, Any]
 
 TRAIN, VALIDATION, TEST, EXTRAPOLATION = SUBSETS = ("train", "validation", "test", "extrapolation")
 
-#: A coordinate whose range on `train` stays below this (mm) is constant: it says nothing about a model.
+#: A coordinate whose range on `train` is at most this (mm) is constant: it says nothing about a model.
 CONSTANT_RANGE_MM = 1e-6
 
 

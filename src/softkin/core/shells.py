@@ -1,4 +1,4 @@
-"""Outer shells of `train`: what stands in for extrapolation while nothing of it may be looked at."""
+"""Cores and outer shells of `train`, which stand in for extrapolation while models are chosen and intervals made."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from softkin.core.errors import SoftkinError
+from softkin.core.errors import DataError
 from softkin.core.samples import Array
 
 Shells = list[tuple[NDArray[np.intp], NDArray[np.intp]]]
@@ -16,20 +16,20 @@ Shells = list[tuple[NDArray[np.intp], NDArray[np.intp]]]
 
 @dataclass(frozen=True, slots=True)
 class CommandNorm:
-    """How far out a command lies: the norm of (command - centre) / scale, each (n_commands,)."""
+    """The command norm, how far out a command lies: the norm of (command - centre) / scale, each (n_commands,)."""
 
     centre: Array
     scale: Array
 
     def of(self, commands: Array) -> Array:
-        """Norms (n_rows,) of commands (n_rows, n_commands); a command of scale 0 never varied and counts nothing."""
+        """Norms (n_rows,) of commands (n_rows, n_commands); a command of scale 0 is constant and left out."""
         varies = self.scale > 0
         return np.asarray(np.linalg.norm((commands - self.centre)[:, varies] / self.scale[varies], axis=1))
 
 
 def command_norm(train_commands: Array, *, standardised: bool) -> CommandNorm:
-    """The norm by which a dataset's extrapolation lies outside: of the raw commands, as in the published data, or of
-    the commands standardised by `train`, as where softkin splits a table.
+    """The command norm of a dataset: of the raw commands, as the published data are split, or of the commands
+    standardised by `train`, as softkin splits a table.
     """
     if standardised:
         return CommandNorm(train_commands.mean(axis=0), train_commands.std(axis=0))
@@ -43,16 +43,17 @@ def outer_shells(norms: Array, core_shares: Sequence[float]) -> Shells:
     repeats another's, is left out.
 
     Raises:
-        SoftkinError: all commands lie equally far out.
+        DataError: all commands have the same norm.
     """
     shells: Shells = []
     for radius in sorted({float(np.quantile(norms, share, method="lower")) for share in core_shares}):
-        inside = norms <= radius
-        if not inside.all():
-            shells.append((np.flatnonzero(inside), np.flatnonzero(~inside)))
+        in_core = norms <= radius
+        if not in_core.all():
+            shells.append((np.flatnonzero(in_core), np.flatnonzero(~in_core)))
     if not shells:
-        raise SoftkinError(
-            "all commands of `train` lie equally far out, so it has no outer shell; mend: set tuning.objective to "
-            "interpolation and leave the preset 'outer' out of presets"
+        raise DataError(
+            "all commands have the same norm, so there is no outer shell",
+            where="`train`",
+            fix="write objective: interpolation in the configuration, and leave outer out of presets",
         )
     return shells

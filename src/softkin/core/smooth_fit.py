@@ -1,8 +1,8 @@
-"""A robust polynomial through a robot's data: what its pose should be, by the rows around it.
+"""A robust polynomial fit of poses by commands: what a pose should be, by the rows around it.
 
 Least squares on commands scaled to [-1, 1], refitted without the rows that lie far off (Rousseeuw and Leroy 1987,
-*Robust Regression and Outlier Detection*, reweighted least squares). Not a model of the pool: it only tells which rows
-do not belong.
+*Robust Regression and Outlier Detection*, reweighted least squares). It is no point model: it only finds the rows
+that do not belong.
 """
 
 from __future__ import annotations
@@ -20,16 +20,17 @@ from softkin.core.samples import CONSTANT_RANGE_MM, Array
 MAX_DEGREE, MAX_TERMS, ROWS_PER_TERM, ROWS_PER_LINEAR_TERM = 8, 250, 8, 3
 MAX_ROWS_FITTED = 10_000
 MAX_REFITS = 10
-#: A refit leaves out rows farther off than both, in any coordinate: robust standard deviations, share of the reach. The
-#: second keeps the corners in, where a noiseless robot's fit is worst and would be worse without them.
-REFIT_WITHOUT_BEYOND, REFIT_WITHOUT_REACH = 8.0, 0.01
+#: A refit leaves out the rows that are farther off than both, in any coordinate: robust standard deviations, share of
+#: the extent. The second keeps the corners in, where a noiseless robot's fit is worst and would be worse without them.
+REFIT_SCALES, REFIT_SHARE = 8.0, 0.01
 
 
 @dataclass(frozen=True, slots=True)
 class SmoothFit:
-    """`scale` (n_coordinates,) is the robust standard deviation of a residual, `reach` (n_coordinates,) the width of
-    the middle 90 % of positions, or of all where these stand still; both in mm. At `degree` 0 the rows were too few to
-    tell anything.
+    """A fitted polynomial; at `degree` 0 the rows were too few for one.
+
+    `scale` (n_coordinates,) is the robust standard deviation of a residual; `extent` (n_coordinates,) is the width of
+    the middle 90 % of positions, or of all where these do not move; both in mm.
     """
 
     degree: int
@@ -40,7 +41,7 @@ class SmoothFit:
     last_degree: Array
     root: Array
     scale: Array
-    reach: Array
+    extent: Array
 
     def residuals(self, commands: Array, positions: Array) -> Array:
         """Measured minus expected position (n_rows, n_coordinates) in mm."""
@@ -53,21 +54,21 @@ class SmoothFit:
         """How far a good row may lie from the fit (n_rows, n_coordinates) in mm, with `scales` standard deviations.
 
         The standard deviation of a prediction is that of a residual times sqrt(1 + leverage): wide where rows are few.
-        To it is added what the polynomial itself may be off: as much, relative to the reach and in the worst
+        To it is added what the polynomial itself may be off: as much, relative to the extent and in the worst
         coordinate, as its highest degree changed it, the usual estimate of what a cut-off series leaves out.
         """
         terms = self._terms(commands)
         leverage = np.square(terms @ self.root).sum(axis=1)
-        left_out = (np.abs(terms @ self.last_degree) / self.reach).max(axis=1)
-        return np.asarray(scales * np.sqrt(1.0 + leverage)[:, None] * self.scale + left_out[:, None] * self.reach)
+        left_out = (np.abs(terms @ self.last_degree) / self.extent).max(axis=1)
+        return np.asarray(scales * np.sqrt(1.0 + leverage)[:, None] * self.scale + left_out[:, None] * self.extent)
 
     def _terms(self, commands: Array) -> Array:
         return _terms((commands - self.centre) / self.half_range, self.degree)
 
 
 def fit_smoothly(commands: Array, positions: Array, rows: Indices, seed: int = 0) -> SmoothFit:
-    """Fit to `rows` (at most `MAX_ROWS_FITTED` of them, drawn with `seed`); commands (n_rows, n_commands), positions
-    (n_rows, n_coordinates) in mm.
+    """The polynomial fitted to `rows` (at most `MAX_ROWS_FITTED` of them, drawn with `seed`) of commands (n_rows,
+    n_commands) and positions (n_rows, n_coordinates) in mm.
     """
     rows = rows[sampled_rows(len(rows), MAX_ROWS_FITTED, seed)]
     x, y = commands[rows], positions[rows]
@@ -75,15 +76,15 @@ def fit_smoothly(commands: Array, positions: Array, rows: Indices, seed: int = 0
     half_range = np.where(half_range > 0, half_range, 1.0)
     degree = degree_for(len(rows), commands.shape[1])
     terms = _terms((x - centre) / half_range, degree)
-    reach = np.subtract(*np.percentile(y, [95, 5], axis=0))
-    reach = np.where(reach > 0, reach, np.maximum(np.ptp(y, axis=0), CONSTANT_RANGE_MM))
+    extent = np.subtract(*np.percentile(y, [95, 5], axis=0))
+    extent = np.where(extent > 0, extent, np.maximum(np.ptp(y, axis=0), CONSTANT_RANGE_MM))
     kept = np.ones(len(rows), dtype=bool)
     for _ in range(MAX_REFITS):
         coefficients = lstsq(terms[kept], y[kept], lapack_driver="gelsy")[0]
         errors = np.abs(y - terms @ coefficients)
-        # The floor stands for rounding: a noiseless line fits to the last bit, and that bit is no yardstick.
+        # The floor stands for rounding: a noiseless line fits to the last bit, and that bit is no scale.
         scale = np.maximum(1.4826 * np.median(errors[kept], axis=0), 1e-12 * np.abs(y).max(axis=0) + 1e-300)
-        now_kept = (errors <= np.maximum(REFIT_WITHOUT_BEYOND * scale, REFIT_WITHOUT_REACH * reach)).all(axis=1)
+        now_kept = (errors <= np.maximum(REFIT_SCALES * scale, REFIT_SHARE * extent)).all(axis=1)
         if now_kept.sum() < max(len(rows) // 2, terms.shape[1]) or (now_kept == kept).all():
             break
         kept = now_kept
@@ -93,7 +94,7 @@ def fit_smoothly(commands: Array, positions: Array, rows: Indices, seed: int = 0
     if degree:
         lower = terms[:, : comb(x.shape[1] + degree - 1, degree - 1)]  # PolynomialFeatures orders terms by degree
         last_degree[: lower.shape[1]] -= lstsq(lower[kept], y[kept], lapack_driver="gelsy")[0]
-    return SmoothFit(degree, len(rows), centre, half_range, coefficients, last_degree, root, scale, reach)
+    return SmoothFit(degree, len(rows), centre, half_range, coefficients, last_degree, root, scale, extent)
 
 
 def degree_for(n_rows: int, n_commands: int) -> int:

@@ -1,4 +1,4 @@
-"""Prepare: a retrieved file -> the tidy table in mm, and a description of it."""
+"""Prepare a dataset: its retrieved file -> the tidy table in mm, and a description of it."""
 
 from __future__ import annotations
 
@@ -10,17 +10,20 @@ from typing import Any
 import numpy as np
 import pooch
 
-from softkin.core.errors import SoftkinError
+from softkin.core.errors import DataError
 from softkin.core.files import write_json
-from softkin.core.samples import SUBSETS, TRAIN, Samples, coordinate_columns, informative_coordinates
+from softkin.core.samples import TRAIN, Samples, coordinate_columns, informative_coordinates
 from softkin.data.readers import READERS
 from softkin.data.table import content_hash, schema, to_table, write_table
 
 logger = logging.getLogger("softkin")
 
-#: Positions that range over less or more than this are probably not in the unit that the entry says.
+#: Positions that range over less or more than this are probably in another unit than the entry says.
 PLAUSIBLE_MM = (1.0, 10_000.0)
 MM_PER_UNIT = {"m": 1000.0, "cm": 10.0, "mm": 1.0, "in": 25.4}
+
+
+Cleaning = Callable[[Mapping[str, Samples]], tuple[dict[str, Samples], dict[str, int]]]
 
 
 def prepare(
@@ -31,54 +34,42 @@ def prepare(
     table: str | Path,
     description: str | Path,
     max_rows: int | None = None,
-    clean: Callable[[Mapping[str, Samples]], tuple[dict[str, Samples], dict[str, int]]] | None = None,
+    clean: Cleaning | None = None,
 ) -> None:
-    """Read `raw` as its entry `source` says, check it, write the `table` (Parquet, mm) and the `description` (JSON).
+    """Read the file of a dataset, check it, write its tidy table (mm) and a description of it.
 
-    `max_rows` keeps the first rows of each subset only (for trying the pipeline out); None keeps all. `clean`, if
-    given, drops rows of `train` and counts them; the description says how many.
+    Parameters:
+        raw: path of the retrieved file.
+        dataset: name of the dataset.
+        source: its entry in config/datasets.yaml.
+        table: path of the tidy table to write (Parquet, mm).
+        description: path of the description to write (JSON).
+        max_rows: rows of each subset that are kept, the first ones, to try the workflow out; None keeps all.
+        clean: drops rows of `train` and counts them by kind; None drops none.
 
     Raises:
-        SoftkinError: the file is not what its entry in config/datasets.yaml says.
+        DataError: the file is not what its entry says.
     """
     samples = READERS[source["format"]](raw, dataset=dataset, source=source)
-    n_commands, n_markers = samples[TRAIN].commands.shape[1], samples[TRAIN].positions.shape[1] // 3
     sizes = {subset: len(rows) for subset, rows in samples.items()}
-    expected = source.get("rows", sizes)
-    for subset in SUBSETS:
-        if sizes[subset] != expected[subset]:
-            raise SoftkinError(
-                f"dataset '{dataset}', subset '{subset}': {sizes[subset]} rows, but config/datasets.yaml registers "
-                f"{expected[subset]}\n  in {raw}\n  mend: correct `rows` of the entry, or the file"
-            )
-    factor = MM_PER_UNIT[source["position_unit"]]
-    samples = {
-        subset: Samples(rows.commands[:max_rows], rows.positions[:max_rows] * factor)
-        for subset, rows in samples.items()
-    }
+    _check_sizes(sizes, source, f"dataset '{dataset}', file {raw}")
+    samples = {subset: _in_mm(rows, max_rows, source["position_unit"]) for subset, rows in samples.items()}
     removed = None
     if clean is not None:
         samples, removed = clean(samples)
         logger.info("cleaned train: %s", ", ".join(f"{count} {what}" for what, count in removed.items()))
-    widest = np.ptp(samples[TRAIN].positions, axis=0).max()
-    if not PLAUSIBLE_MM[0] <= widest <= PLAUSIBLE_MM[1]:
-        logger.warning(
-            "dataset '%s', file %s: positions range over %.3g mm\n  mend: if that is no such robot, correct "
-            "`position_unit`, which is %s",
-            *(dataset, source["file"], widest, source["position_unit"]),
-        )
+    _warn_of_implausible_range(samples[TRAIN], source, f"dataset '{dataset}', file {source['file']}")
     frame = to_table(samples)
+    n_commands, n_markers = samples[TRAIN].commands.shape[1], samples[TRAIN].positions.shape[1] // 3
     schema(n_commands, n_markers).validate(frame)
     write_table(frame, table)
-
-    moving = informative_coordinates(samples[TRAIN].positions)
-    names = coordinate_columns(n_markers)
+    origin = "stand-in" if "robot" in source else "published" if "urls" in source else "own"
     write_json(
         description,
         {
             "dataset": dataset,
             "title": source["title"],
-            "origin": "stand-in" if "robot" in source else "published" if "urls" in source else "own",
+            "origin": origin,
             "sha256": source.get("sha256") or pooch.file_hash(str(raw), alg="sha256"),
             "n_commands": n_commands,
             "n_markers": n_markers,
@@ -86,7 +77,34 @@ def prepare(
             "removed_from_train": removed,
             "is_cut": max_rows is not None and any(size > max_rows for size in sizes.values()),
             "content_sha256": {subset: content_hash(rows) for subset, rows in samples.items()},
-            "constant_coordinates": [name for name, moves in zip(names, moving, strict=True) if not moves],
+            "constant_coordinates": _constant_coordinates(samples[TRAIN]),
         },
     )
     logger.info("%d rows, %d commands, %d coordinates", len(frame), n_commands, 3 * n_markers)
+
+
+def _check_sizes(sizes: Mapping[str, int], source: Mapping[str, Any], where: str) -> None:
+    for subset, registered in source.get("rows", {}).items():
+        if sizes[subset] != registered:
+            raise DataError(
+                f"{sizes[subset]} rows, but the entry registers {registered}",
+                where=f"{where}, subset {subset}",
+                fix="correct `rows` of the entry in config/datasets.yaml, or the file",
+            )
+
+
+def _in_mm(rows: Samples, max_rows: int | None, unit: str) -> Samples:
+    return Samples(rows.commands[:max_rows], rows.positions[:max_rows] * MM_PER_UNIT[unit])
+
+
+def _warn_of_implausible_range(train: Samples, source: Mapping[str, Any], where: str) -> None:
+    widest = np.ptp(train.positions, axis=0).max()
+    if not PLAUSIBLE_MM[0] <= widest <= PLAUSIBLE_MM[1]:
+        fix = f"unless the robot is of that size, correct `position_unit`, which is {source['position_unit']}"
+        logger.warning("%s", DataError(f"positions range over {widest:.3g} mm", where=where, fix=fix))
+
+
+def _constant_coordinates(train: Samples) -> list[str]:
+    moving = informative_coordinates(train.positions)
+    names = coordinate_columns(len(moving) // 3)
+    return [name for name, moves in zip(names, moving, strict=True) if not moves]

@@ -1,4 +1,4 @@
-"""Which published datasets can be reached now, and what stands in for the others."""
+"""Which published datasets can be reached now, and the stand-ins that take the place of the others."""
 
 from __future__ import annotations
 
@@ -9,17 +9,15 @@ from urllib.parse import urlparse
 
 import requests
 
+from softkin.core.errors import RetrievalError
+
 PROBE_SECONDS = 4.0
 SUFFIX = "_standin"
-#: Keys of an entry that speak of the published data only.
+#: Keys of an entry that are about the published data only.
 PUBLISHED_ONLY = ("urls", "sha256", "licence", "citation", "paper_table", "paper_params", "notes", "clean")
-HOW_TO_GET_THEM = (
-    "put the published files into a folder and name it in SOFTKIN_DATA_MIRROR, or run where their authors' repository "
-    "can be reached"
-)
 
 
-def is_in_reach(entry: Mapping[str, Any], mirror: str | None) -> bool:
+def is_reachable(entry: Mapping[str, Any], mirror: str | None) -> bool:
     """Whether the mirror has the file or one of its URLs answers; nothing is downloaded."""
     return any(_answers(place) for place in _places(entry, mirror))
 
@@ -44,16 +42,14 @@ def with_stand_ins(
     mirror: str | None,
     retrieved: Mapping[str, Path],
 ) -> tuple[list[str], dict[str, Any], list[str]]:
-    """Datasets and sources in which every published dataset out of reach is replaced by its stand-in, under a name of
-    its own, and the names of those that were replaced.
+    """(datasets, sources, replaced): every unreachable dataset is replaced by its stand-in, under a name of its own.
 
-    One that was `retrieved` before (dataset -> file) is in reach, and so is one without `standin` in its entry, since
-    there is nothing to replace it by.
+    A dataset that was `retrieved` before (dataset -> file) stays, and so does one without `standin` in its entry.
     """
     names, entries, replaced = [], {name: dict(entry) for name, entry in sources.items()}, []
     for name in datasets:
         entry = entries[name]
-        if "standin" not in entry or retrieved[name].exists() or is_in_reach(entry, mirror):
+        if "standin" not in entry or retrieved[name].exists() or is_reachable(entry, mirror):
             names.append(name)
             continue
         replaced.append(name)
@@ -63,13 +59,15 @@ def with_stand_ins(
 
 
 def warning(replaced: Iterable[str]) -> str:
-    """What a person must be told, in one paragraph."""
-    names = ", ".join(replaced)
-    return (
-        f"STAND-INS: {names} cannot be reached. Robots simulated by softkin take their place, as <name>{SUFFIX}; they "
-        "are not the published data, and nothing is compared with the paper. For the real ones, "
-        f"{HOW_TO_GET_THEM}: the next run takes them by itself."
+    """The warning that stand-ins take the place of the datasets `replaced`, and how to get the published data."""
+    error = RetrievalError(
+        f"{', '.join(replaced)} cannot be reached. Robots simulated by softkin take their place, as <name>{SUFFIX}; "
+        "they are not the published data, and nothing is compared with the paper.",
+        where="STAND-INS",
+        fix="put the published files into a folder and name it in SOFTKIN_DATA_MIRROR, or run where their authors' "
+        "repository can be reached; the next run uses them",
     )
+    return str(error)
 
 
 def _places(entry: Mapping[str, Any], mirror: str | None) -> Iterator[str]:

@@ -1,5 +1,5 @@
-"""Retrieve a published file: from the mirror, else from each URL in order; hashed before it is put in place.
-A file of one's own is copied, so that a run keeps what it was made from.
+"""Retrieve the file of a dataset: a published one from the mirror or its URLs, checked by its hash before it is put in
+place; one's own is copied, so that a run keeps what it was made from.
 """
 
 from __future__ import annotations
@@ -8,6 +8,7 @@ import logging
 import shutil
 import sys
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import urlparse
 
@@ -15,7 +16,7 @@ import pooch
 import requests
 from tenacity import RetryError, Retrying, retry_if_exception, stop_after_attempt, wait_exponential
 
-from softkin.core.errors import SoftkinError
+from softkin.core.errors import RetrievalError
 from softkin.core.files import replacing
 
 logger = logging.getLogger("softkin")
@@ -23,6 +24,15 @@ logger = logging.getLogger("softkin")
 
 class WrongHash(Exception):
     """The bytes that came are not the bytes that were registered."""
+
+
+@dataclass(frozen=True, slots=True)
+class Patience:
+    """How long a source is waited for: seconds of a request, attempts, and the first of the doubling pauses (s)."""
+
+    timeout_seconds: float = 30.0
+    attempts: int = 4
+    backoff_seconds: float = 1.0
 
 
 def retrieve(
@@ -33,58 +43,68 @@ def retrieve(
     sha256: str,
     destination: str | Path,
     mirror: str | None = None,
-    timeout_seconds: float = 30.0,
-    attempts: int = 4,
-    backoff_seconds: float = 1.0,
+    patience: Patience = Patience(),
 ) -> str:
-    """Put the registered file of `dataset` at `destination` and return the source it came from.
+    """Put the registered file of a published dataset in place, and return the source that it came from.
 
-    Sources are tried in order: `mirror` (a folder, or a URL prefix, that holds `file`), then `urls`. A source that
-    may recover (time-out, refused connection, broken transfer, status 429 or 5xx) is tried `attempts` times with
-    exponential back-off. Bytes go to a temporary file, are checked against `sha256`, then renamed into place.
+    Sources are tried in order: `mirror`, then `urls`. A source that may recover (time-out, refused connection, broken
+    transfer, status 429 or 5xx) is tried several times with exponential back-off. Bytes go to a temporary file, are
+    checked against `sha256`, then renamed into place.
+
+    Parameters:
+        dataset: name of the dataset.
+        file: name of the file, in the mirror and in messages.
+        urls: where to download it.
+        sha256: of its content, hexadecimal; anything else is refused.
+        destination: path to put it at.
+        mirror: a folder, or a URL prefix, that holds `file`; None where there is none.
+        patience: time-out, attempts and back-off.
 
     Raises:
-        SoftkinError: no source gave the file; names the dataset, what each source answered and the mend.
+        RetrievalError: no source gave the file; says what each of them answered.
     """
-    complaints = []
-    for source, fetch in _sources(file, urls, mirror, timeout_seconds):
-        retrying = Retrying(
-            stop=stop_after_attempt(attempts),
-            wait=wait_exponential(multiplier=backoff_seconds, max=30),
-            retry=retry_if_exception(_may_recover),
-            before_sleep=lambda state, source=source: logger.warning(  # type: ignore[misc]
-                "%s failed (%s); trying again in %.1f s",
-                source,
-                _reason(state.outcome.exception()),
-                state.next_action.sleep,
-            ),
-        )
+    answers = []
+    for source, fetch in _sources(file, urls, mirror, patience.timeout_seconds):
         try:
-            for attempt in retrying:
+            for attempt in _attempts(source, patience):
                 with attempt, replacing(destination) as temporary:
                     fetch(temporary)
                     _check(temporary, sha256)
         except RetryError as error:
-            complaints.append(f"{source}: {_reason(error.last_attempt.exception())} ({attempts} attempts)")
+            answers.append(f"{source}: {_reason(error.last_attempt.exception())} ({patience.attempts} attempts)")
         except (WrongHash, OSError) as error:
-            complaints.append(f"{source}: {_reason(error)}")
+            answers.append(f"{source}: {_reason(error)}")
         else:
             logger.info("retrieved %s (%d bytes)", source, Path(destination).stat().st_size)
             return source
-        logger.warning("%s", complaints[-1])
-    raise SoftkinError(
-        f"dataset '{dataset}': no source gave {file}.\n  "
-        + "\n  ".join(complaints)
-        + f"\n  mend: check the internet connection, or put {file} (sha256 {sha256}) into a folder and name that "
-        "folder, or a URL prefix, in SOFTKIN_DATA_MIRROR or in config key data_mirror."
+        logger.warning("%s", answers[-1])
+    raise RetrievalError(
+        "\n  ".join([f"no source gave {file}", *answers]),
+        where=f"dataset '{dataset}'",
+        fix=f"check the internet connection, or put {file} (sha256 {sha256}) into a folder and name that folder, or a "
+        "URL prefix, in the variable SOFTKIN_DATA_MIRROR or in the configuration key `data_mirror`",
+    )
+
+
+def _attempts(source: str, patience: Patience) -> Retrying:
+    return Retrying(
+        stop=stop_after_attempt(patience.attempts),
+        wait=wait_exponential(multiplier=patience.backoff_seconds, max=30),
+        retry=retry_if_exception(_may_recover),
+        before_sleep=lambda state: logger.warning(
+            "%s failed (%s); trying again in %.1f s",
+            source,
+            _reason(state.outcome.exception() if state.outcome else None),
+            state.next_action.sleep if state.next_action else 0.0,
+        ),
     )
 
 
 def take_own_file(*, dataset: str, file: str, destination: str | Path, sha256: str | None = None) -> None:
-    """Copy the `file` of one's own to `destination`, checked against `sha256` where one is registered.
+    """Copy a `file` of one's own to `destination`, checked against `sha256` where one is registered.
 
     Raises:
-        SoftkinError: the file is not there or is not the registered one.
+        RetrievalError: the file is not there or is not the registered one.
     """
     try:
         with replacing(destination) as temporary:
@@ -92,9 +112,11 @@ def take_own_file(*, dataset: str, file: str, destination: str | Path, sha256: s
             if sha256 is not None:
                 _check(temporary, sha256)
     except (WrongHash, OSError) as error:
-        raise SoftkinError(
-            f"dataset '{dataset}': {file}: {_reason(error)}\n  mend: correct `file` or `sha256` of its entry in "
-            "config/datasets.yaml; a relative path starts where the run works"
+        raise RetrievalError(
+            _reason(error),
+            where=f"dataset '{dataset}', file {file}",
+            fix="correct `file` or `sha256` of its entry in config/datasets.yaml; a relative path starts in the "
+            "working directory of the run",
         ) from error
     logger.info("copied %s (%d bytes)", file, Path(destination).stat().st_size)
 
@@ -121,10 +143,10 @@ def _download(url: str, temporary: Path, timeout: float) -> None:
 
 
 def _check(path: Path, sha256: str) -> None:
-    found = pooch.file_hash(str(path), alg="sha256")
-    if found != sha256:
+    actual = pooch.file_hash(str(path), alg="sha256")
+    if actual != sha256:
         raise WrongHash(
-            f"wrong file: sha256 is {found}, expected {sha256} ({path.stat().st_size} bytes came; "
+            f"wrong file: sha256 is {actual}, expected {sha256} ({path.stat().st_size} bytes came; "
             "the file was cut off or has changed at its source); it was not kept"
         )
 

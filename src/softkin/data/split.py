@@ -1,8 +1,8 @@
-"""Split a robot's own table into the four subsets, by a method that its entry names.
+"""Split the rows of a robot's own table into the four subsets, by a method that its entry names.
 
-A method that draws (`random`, `group`, `time`) first forms groups of rows that must stay together, then gives the outer
-groups, by standardised command norm, to `extrapolation`, and deals the others out at random: 80 % of their rows to
-`train`, 10 % to `validation`, 10 % to `test`.
+The methods `random`, `group` and `time` first form groups of rows that must stay together. The outer groups, by
+standardised command norm, become `extrapolation`; the others are drawn at random: 80 % of their rows for `train`, 10 %
+for `validation`, 10 % for `test`. The method `column` takes the subsets from a column of the file.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from softkin.core.errors import SoftkinError
+from softkin.core.errors import DataError
 from softkin.core.samples import EXTRAPOLATION, SUBSETS, TEST, TRAIN, VALIDATION, Array
 
 Codes = NDArray[np.int64]
@@ -26,9 +26,9 @@ SPELLINGS = {subset: subset for subset in SUBSETS} | {"val": VALIDATION, "ext": 
 
 
 def has_standardised_norm(entry: Mapping[str, Any]) -> bool:
-    """Whether the norm by which a dataset's extrapolation lies outside is that of the commands standardised by `train`,
-    by its `entry` of config/datasets.yaml: so where softkin splits the table. Published data, and simulated ones in
-    their place, are split by the norm of the raw commands.
+    """Whether the command norm of a dataset is that of the commands standardised by `train`, by its `entry` in
+    config/datasets.yaml: it is where softkin splits the table. Published data, and stand-ins for them, are split by the
+    norm of the raw commands.
     """
     return "split" in entry
 
@@ -38,21 +38,24 @@ def split(
 ) -> Codes:
     """The subset of each row, as its index in `SUBSETS` (n_rows,).
 
-    `options` is the key `split` of the entry: `method`, and the options of that method. `column` holds the values of
-    the file's column that `options` names, text or numbers. `place` says of a row where it stands in the file.
+    Parameters:
+        options: the key `split` of the entry: `method`, and the options of that method.
+        commands: (n_rows, n_commands).
+        column: values (n_rows,) of the file's column that `options` names, text or numbers; None where it names none.
+        place: row number -> where the row stands in the file, for messages.
 
     Raises:
-        SoftkinError: a subset would stay empty, or a value of `column` is of no use; names row, column and mend.
+        DataError: a subset would be empty, or a value of `column` cannot be used; names the row and the column.
     """
     if options["method"] == "column":
-        return _named(options, column, place)
+        return _named_subsets(options, column, place)
     groups = GROUPS[options["method"]](options, commands, column, place)
-    return _dealt(options, groups, standardised_norms(commands))
+    return _drawn_subsets(options, groups, standardised_norms(commands))
 
 
 def standardised_norms(commands: Array) -> Array:
-    """Norm of each row of commands (n_rows, n_commands) after each command has mean 0 and variance 1; a constant
-    command counts for nothing.
+    """Norm (n_rows,) of commands (n_rows, n_commands) that are standardised to mean 0 and variance 1; constant
+    commands are left out.
     """
     largest = np.abs(commands).max(axis=0)
     scaled = commands / np.where(largest > 0, largest, 1.0)  # squares of very small numbers would vanish
@@ -63,57 +66,61 @@ def standardised_norms(commands: Array) -> Array:
 
 
 def wanted_shares(options: Mapping[str, Any]) -> dict[str, float]:
-    """Share of all rows that each subset should get; nothing is wanted where the file names the subsets."""
+    """Share of all rows that each subset should get; empty where the file names the subsets."""
     if options["method"] == "column":
         return {}
     outer = options.get("extrapolation_share", EXTRAPOLATION_SHARE)
     return {subset: (1 - outer) * share for subset, share in INNER_SHARES.items()} | {EXTRAPOLATION: outer}
 
 
-def _named(options: Mapping[str, Any], column: NDArray[Any] | None, place: Callable[[int], str]) -> Codes:
+def _named_subsets(options: Mapping[str, Any], column: NDArray[Any] | None, place: Callable[[int], str]) -> Codes:
     assert column is not None
     spellings = {str(name): subset for subset, name in options["names"].items()} if "names" in options else SPELLINGS
     codes, values = _factorize(column)
     texts = [str(value).strip() for value in values]
     for code, text in enumerate(texts):
         if text not in spellings:
-            first = int(np.argmax(codes == code))
-            raise SoftkinError(
-                f"{place(first)}, column '{options['column']}': '{text}' names no subset\n"
-                f"  mend: write one of {', '.join(spellings)}, or say in `names` of `split` how subsets are called"
+            raise DataError(
+                f"'{text}' is the name of no subset",
+                where=f"{place(int(np.argmax(codes == code)))}, column '{options['column']}'",
+                fix=f"write one of {', '.join(spellings)}, or say in `names` of `split` what the file calls each",
             )
     missing = [subset for subset in SUBSETS if subset not in {spellings[text] for text in texts}]
     if missing:
-        raise SoftkinError(
-            f"column '{options['column']}': no row of {' or '.join(missing)}\n"
-            "  mend: name rows of all four subsets there, or let softkin split: split: {method: random}"
+        raise DataError(
+            f"no row of {' or '.join(missing)}",
+            where=f"column '{options['column']}'",
+            fix="name rows of all four subsets there, or let softkin draw them with split: {method: random}",
         )
     return np.array([SUBSETS.index(spellings[text]) for text in texts])[codes]
 
 
-def _dealt(options: Mapping[str, Any], groups: Codes, norms: Array) -> Codes:
+def _drawn_subsets(options: Mapping[str, Any], groups: Codes, norms: Array) -> Codes:
     n_groups = int(groups.max()) + 1
     if n_groups < len(SUBSETS):
-        raise SoftkinError(
-            f"{n_groups} {_KINDS[options['method']]}: four subsets need at least four\n"
-            "  mend: record more, or choose another `method` of `split`"
+        raise DataError(
+            f"{_counted(n_groups, options)}, but four subsets need at least four",
+            where="commands" if options["method"] == "random" else f"column '{options['column']}'",
+            fix="record more, or choose another `method` of `split`",
         )
     sizes = np.bincount(groups)
-    reach = np.zeros(n_groups)
-    np.maximum.at(reach, groups, norms)
-    order = np.argsort(reach, kind="stable")
-    # Between groups of equal reach there is no shell to cut; equal up to rounding, since the mean is subtracted.
-    cuts = 1 + np.flatnonzero(np.diff(reach[order]) > 1e-9 * reach.max())
+    largest_norms = np.zeros(n_groups)
+    np.maximum.at(largest_norms, groups, norms)
+    order = np.argsort(largest_norms, kind="stable")
+    # Groups of one norm are not separated; equal up to rounding, since the mean is subtracted.
+    cuts = 1 + np.flatnonzero(np.diff(largest_norms[order]) > 1e-9 * largest_norms.max())
     cuts = cuts[cuts >= len(INNER_SHARES)]
     if not cuts.size:
-        raise SoftkinError(
-            f"the extrapolation shell is empty: {n_groups} {_KINDS[options['method']]}, and no outer ones among them "
-            "that leave three or more inside, by the norm of their standardised commands\n  mend: record more distinct "
-            "commands, or mark the subsets in a column of the file: split: {method: column, column: ...}"
+        raise DataError(
+            f"extrapolation would be empty: of {_counted(n_groups, options)}, none lie farther out than three or more "
+            "others by the norm of their standardised commands",
+            where="commands",
+            fix="record more distinct commands, or name the subsets in a column of the file with "
+            "split: {method: column, column: ...}",
         )
-    inside = np.cumsum(sizes[order])[cuts - 1]
+    inner_rows = np.cumsum(sizes[order])[cuts - 1]
     outer = options.get("extrapolation_share", EXTRAPOLATION_SHARE)
-    cut = int(cuts[np.argmin(np.abs(inside - (1 - outer) * len(groups)))])
+    cut = int(cuts[np.argmin(np.abs(inner_rows - (1 - outer) * len(groups)))])
 
     subset_of = np.full(n_groups, SUBSETS.index(EXTRAPOLATION))
     drawn = np.random.default_rng(options.get("seed", 0)).permutation(order[:cut])
@@ -146,10 +153,10 @@ def _same_value(
     codes, values = _factorize(column)
     empty = [code for code, value in enumerate(values) if not str(value).strip()]
     if empty:
-        first = int(np.argmax(codes == empty[0]))
-        raise SoftkinError(
-            f"{place(first)}, column '{options['column']}': no value, so the row's group is unknown\n"
-            "  mend: fill the cell or delete the row"
+        raise DataError(
+            "no value, so the group of the row is unknown",
+            where=f"{place(int(np.argmax(codes == empty[0])))}, column '{options['column']}'",
+            fix="fill the cell or delete the row",
         )
     return codes
 
@@ -157,7 +164,7 @@ def _same_value(
 def _same_stretch(
     options: Mapping[str, Any], _commands: Array, column: NDArray[Any] | None, place: Callable[[int], str]
 ) -> Codes:
-    """The recording in time order, cut into stretches of equal size; rows of one time stay together."""
+    """Stretches of equal size of the recording in the order of time; rows of one time stay together."""
     assert column is not None
     times = _times(options["column"], column, place)
     ordered = np.sort(times)
@@ -167,7 +174,7 @@ def _same_stretch(
 
 
 def _times(name: str, column: NDArray[Any], place: Callable[[int], str]) -> NDArray[Any]:
-    """Numbers or ISO 8601 dates as numbers that sort alike."""
+    """Numbers or ISO 8601 dates, as text or numbers, as numbers that sort alike."""
     import pandas as pd
 
     if column.dtype != object:
@@ -180,9 +187,10 @@ def _times(name: str, column: NDArray[Any], place: Callable[[int], str]) -> NDAr
     if dates.notna().all():
         return np.asarray(dates.astype("int64").to_numpy())
     first = int(np.argmax((numbers.isna() & dates.isna()).to_numpy()))
-    raise SoftkinError(
-        f"{place(first)}, column '{name}': no time: '{column[first]}'\n"
-        "  mend: write all times as numbers (seconds), or all as dates like 2024-05-31T12:00:00.5"
+    raise DataError(
+        f"'{column[first]}' is no time",
+        where=f"{place(first)}, column '{name}'",
+        fix="write all times as numbers (seconds), or all as dates like 2024-05-31T12:00:00.5",
     )
 
 
@@ -195,4 +203,13 @@ def _factorize(column: NDArray[Any]) -> tuple[Codes, list[Any]]:
 
 #: Method -> groups(options, commands, column, place): a number per row (n_rows,), the same for rows that stay together.
 GROUPS: dict[str, Callable[..., Codes]] = {"random": _same_command, "group": _same_value, "time": _same_stretch}
-_KINDS = {"random": "distinct commands", "group": "groups", "time": "stretches of time"}
+#: What its groups are, one and many.
+_KINDS = {
+    "random": ("distinct command", "distinct commands"),
+    "group": ("group", "groups"),
+    "time": ("stretch of time", "stretches of time"),
+}
+
+
+def _counted(n_groups: int, options: Mapping[str, Any]) -> str:
+    return f"{n_groups} {_KINDS[options['method']][n_groups != 1]}"

@@ -1,6 +1,6 @@
-"""The tidy table of a dataset: one Parquet file with columns subset, u1.., m1_x.. (mm).
+"""The tidy table of a dataset: one Parquet file with columns subset, u1, ..., m1_x, ... (mm).
 
-A stage names the one subset it may see and no other row is read from the disk.
+A stage names the one subset that it may see; no other row is read from the disk.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from softkin.core.errors import SoftkinError
+from softkin.core.errors import DataError
 from softkin.core.files import replacing
 from softkin.core.samples import SUBSETS, Samples, command_columns, coordinate_columns
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def schema(n_commands: int, n_markers: int) -> pandera.DataFrameSchema:
-    """Declared schema: these columns in this order, finite 64-bit floats, the four subset names."""
+    """The schema of a tidy table: these columns in this order, finite 64-bit floats, the names of the four subsets."""
     import pandera.pandas as pa
 
     number = pa.Column(float, pa.Check(np.isfinite, error="must be finite"), nullable=False)
@@ -32,7 +32,7 @@ def schema(n_commands: int, n_markers: int) -> pandera.DataFrameSchema:
 
 
 def to_table(samples: Mapping[str, Samples]) -> pd.DataFrame:
-    """Samples per subset (mm) as one table, rows in the order given."""
+    """Samples per subset (mm) as one table; the order of subsets and rows stays."""
     frames = []
     for subset, rows in samples.items():
         names = command_columns(rows.commands.shape[1]) + coordinate_columns(rows.positions.shape[1] // 3)
@@ -49,14 +49,16 @@ def write_table(table: pd.DataFrame, path: str | Path) -> None:
 
 
 def read_subset(path: str | Path, subset: str) -> Samples:
-    """The rows of one subset.
+    """The samples of one subset of the tidy table at `path`.
 
     Raises:
-        SoftkinError: the table has no such rows.
+        DataError: the table has no such rows.
     """
     frame = pd.read_parquet(path, filters=[("subset", "==", subset)])
     if frame.empty:
-        raise SoftkinError(f"{path}: no rows of subset '{subset}'; mend: rerun the rule 'prepare' for this dataset")
+        raise DataError(
+            f"no rows of subset '{subset}'", where=path, fix="delete the file and run again; rule prepare makes it anew"
+        )
     is_command = frame.columns.str.match(r"u\d+$")
     is_coordinate = frame.columns.str.match(r"m\d+_[xyz]$")
     return Samples(

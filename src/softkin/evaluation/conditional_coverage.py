@@ -1,4 +1,4 @@
-"""Is the coverage there where it matters? Coverage on `test` by marker, command, position and width."""
+"""Conditional coverage: coverage on `test` by marker, command, position and width."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from softkin.data.table import read_subset
 from softkin.uncertainty.choose import nearest_level
 
 N_BINS = 5
-#: MAPIE's HSIC takes the square of the rows in memory.
+#: Memory of MAPIE's HSIC grows with the square of the rows.
 HSIC_ROWS = 2000
 
 
@@ -33,12 +33,20 @@ def conditional_coverage(
     seed: int,
     output: str | Path,
 ) -> None:
-    """Write a row per model, preset, method, `by` and group: share of covered coordinates and its standard error.
+    """Write a row per run, method, `by` and group: share of covered coordinates and its standard error.
 
-    `intervals` is method -> file; only the runs in `shown` and those on quantiles are looked at.
     `by` is marker, command_norm, predicted_position (distance from the mean pose of `train`), width (MAPIE's
-    size-stratified coverage), slab (the worst of the command space holding a fifth of the rows, found on one half of
-    the rows and measured on the other) or hsic (MAPIE's dependence of coverage on width; 0 is none).
+    size-stratified coverage), slab (that of lowest coverage, with a fifth of the rows, searched on one half
+    of the rows and measured on the other) or hsic (MAPIE's dependence of coverage on width; 0 is none).
+
+    Parameters:
+        table: the tidy table.
+        dataset: its name.
+        intervals: method -> file of its intervals.
+        shown: the runs that get rows.
+        confidence_levels: nominal levels; the one nearest to the paper's is evaluated.
+        seed: of the halves and directions of the slabs.
+        output: the coverages (CSV).
     """
     level = nearest_level(confidence_levels)
     test, train = read_subset(table, TEST), read_subset(table, TRAIN)
@@ -46,10 +54,10 @@ def conditional_coverage(
     rows: list[dict[str, Any]] = []
     for method, path in intervals.items():
         stored = pd.read_parquet(path)
-        for (model, preset), mine in stored.groupby(["model", "preset"], sort=False):
+        for (model, preset), of_run in stored.groupby(["model", "preset"], sort=False):
             if (model, preset) not in shown:
                 continue
-            bounds = read_bounds(mine, TEST, [level])[0][:, moving]
+            bounds = read_bounds(of_run, TEST, [level])[0][:, moving]
             key = {"dataset": dataset, "model": model, "preset": preset, "interval_method": method}
             key |= {"confidence_level": level}
             rows += [key | row for row in _groups(test, train, bounds, moving, seed)]
@@ -60,10 +68,11 @@ def conditional_coverage(
 def _groups(
     test: Samples, train: Samples, bounds: Array, moving: NDArray[np.bool_], seed: int
 ) -> Iterator[dict[str, Any]]:
-    inside = covered(test.positions[:, moving], bounds)
+    """A row per group of all kinds, of the moving coordinates' bounds (n_rows, n_moving, 2) of one run."""
+    is_covered = covered(test.positions[:, moving], bounds)
     markers = np.flatnonzero(moving) // 3
     for marker in np.unique(markers):
-        yield {"by": "marker", "group": f"m{marker + 1}", **_share(inside[:, markers == marker])}
+        yield {"by": "marker", "group": f"m{marker + 1}", **_share(is_covered[:, markers == marker])}
     centre = np.where(np.isfinite(bounds).all(axis=-1), bounds.mean(axis=-1), 0.0)
     variables = {
         "command_norm": np.linalg.norm(test.commands, axis=1),
@@ -72,21 +81,21 @@ def _groups(
     for by, values in variables.items():
         for place, rows in enumerate(np.array_split(np.argsort(values, kind="stable"), N_BINS)):
             limits = {"low": values[rows].min(), "high": values[rows].max()}
-            yield {"by": by, "group": str(place + 1), **limits, **_share(inside[rows])}
-    yield from _by_width(test.positions[:, moving], bounds, inside)
-    rows = worst_slab(test.commands, inside.mean(axis=1), seed)
+            yield {"by": by, "group": str(place + 1), **limits, **_share(is_covered[rows])}
+    yield from _by_width(test.positions[:, moving], bounds, is_covered)
+    rows = worst_slab(test.commands, is_covered.mean(axis=1), seed)
     if len(rows):
-        yield {"by": "slab", "group": "worst", **_share(inside[rows])}
+        yield {"by": "slab", "group": "worst", **_share(is_covered[rows])}
 
 
-def _by_width(true: Array, bounds: Array, inside: NDArray[np.bool_]) -> Iterator[dict[str, Any]]:
-    """Only for intervals whose width differs from row to row, in every coordinate."""
+def _by_width(true: Array, bounds: Array, is_covered: NDArray[np.bool_]) -> Iterator[dict[str, Any]]:
+    """Rows by width, for intervals whose width differs from row to row in every coordinate."""
     from mapie.metrics.regression import hsic, regression_ssc
 
     width = widths(bounds)
     if not np.isfinite(width).all():
         return
-    # In units of each coordinate's mean width: MAPIE rounds widths, and some robots are known to a nanometre.
+    # In units of the mean width of each coordinate: MAPIE rounds widths, and those of some robots are nanometres.
     scale = np.maximum(width.mean(axis=0), np.finfo(float).tiny)
     true, bounds = true / scale, bounds / scale[:, None]
     if min(len(np.unique(column.round(5))) for column in widths(bounds).T) <= N_BINS:
@@ -95,7 +104,7 @@ def _by_width(true: Array, bounds: Array, inside: NDArray[np.bool_]) -> Iterator
     order = np.argsort(width.mean(axis=1), kind="stable")
     for place, (coverage, rows) in enumerate(zip(np.mean(strata, axis=0), np.array_split(order, N_BINS), strict=True)):
         limits = {"low": width[rows].mean(axis=1).min(), "high": width[rows].mean(axis=1).max()}
-        error = _share(inside[rows])["standard_error"]
+        error = _share(is_covered[rows])["standard_error"]
         yield {
             "by": "width",
             "group": str(place + 1),
@@ -109,8 +118,8 @@ def _by_width(true: Array, bounds: Array, inside: NDArray[np.bool_]) -> Iterator
     yield {"by": "hsic", "group": "mean", "n_rows": len(rows), "value": float(np.mean(dependence))}
 
 
-def _share(inside: NDArray[np.bool_]) -> dict[str, Any]:
+def _share(is_covered: NDArray[np.bool_]) -> dict[str, Any]:
     """Share of covered coordinates; its standard error treats rows, not coordinates, as independent."""
-    by_row = inside.mean(axis=1)
+    by_row = is_covered.mean(axis=1)
     error = by_row.std(ddof=1) / np.sqrt(len(by_row)) if len(by_row) > 1 else float("nan")
     return {"n_rows": len(by_row), "coverage": by_row.mean(), "standard_error": error}

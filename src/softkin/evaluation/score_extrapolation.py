@@ -1,4 +1,4 @@
-"""Score intervals for commands outside `train`, each beside the oracle: one dataset's extrapolation_intervals.csv."""
+"""Score intervals in extrapolation, each beside the oracle: the extrapolation_intervals.csv of one dataset."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ COLUMNS = [
 
 @dataclass(frozen=True)
 class ScoredRun:
-    """One run on one subset: its errors with all that labelled methods see of them, and the true positions."""
+    """One run on one subset: the input of labelled methods, and the true positions (n_rows, n_coordinates) in mm."""
 
     run: Run
     subset: str
@@ -63,11 +63,18 @@ def score_extrapolation(
     runs: Collection[Run],
     output: str | Path,
 ) -> None:
-    """Write a row per run of `runs`, method, level and subset (test, extrapolation): means over the coordinates that
-    move, of the interval methods around that run, and of the labelled ones.
+    """Write a row per run, method, level and subset (test, extrapolation): means over moving coordinates.
 
-    `oracle_winkler_mm` is the score of the oracle. Where a method refuses, it has no scores. `standardised_norm` says
-    by which norm commands lie outside.
+    Rows are of the interval methods around the run, and of the labelled ones. Where a method refuses, it has no scores.
+
+    Parameters:
+        table: the tidy table.
+        dataset: its name.
+        standardised_norm: whether the command norm is that of standardised commands.
+        methods: interval methods and labelled methods.
+        predictions: run -> file of its predicted positions.
+        runs: the runs that are scored.
+        output: the scores (CSV).
     """
     samples = {subset: read_subset(table, subset) for subset in SUBSETS}
     norm = command_norm(samples[TRAIN].commands, standardised=standardised_norm).of
@@ -88,7 +95,7 @@ def score_extrapolation(
 def _scored_runs(
     run: Run, predictions: pd.DataFrame, samples: Mapping[str, Samples], norm: Callable[[Array], Array]
 ) -> Iterator[ScoredRun]:
-    """The run on each subset that gets intervals."""
+    """The run on test and on extrapolation."""
     moving = informative_coordinates(samples[TRAIN].positions)
     errors = {
         subset: (rows.positions - predicted_rows(predictions, [subset]))[:, moving] for subset, rows in samples.items()
@@ -106,6 +113,7 @@ def _scored_runs(
 
 
 def _labelled_rows(scored: ScoredRun, methods: ExtrapolationMethods) -> Iterator[dict[str, Any]]:
+    """Rows of the labelled methods."""
     levels = methods.confidence_levels
     for name, method in methods.labelled.items():
         answer = method.answer(scored.labelled, levels, methods.seed)
@@ -121,7 +129,7 @@ def _labelled_rows(scored: ScoredRun, methods: ExtrapolationMethods) -> Iterator
 def _interval_rows(
     scored: ScoredRun, methods: ExtrapolationMethods, stored: Mapping[str, pd.DataFrame]
 ) -> Iterator[dict[str, Any]]:
-    """Of the methods around this run: those on quantiles are around none."""
+    """Rows of the interval methods around this run; those calibrated on quantiles are around no point model."""
     levels, moving = methods.confidence_levels, scored.moving
     for name, method in methods.methods.items():
         frame = stored[name]
@@ -136,12 +144,12 @@ def _interval_rows(
 
 
 def scores(true: Array, bounds: Array, level: float) -> dict[str, float]:
-    """Of intervals (n_rows, n_coordinates, 2), over all rows and coordinates; mm."""
-    inside, width = covered(true, bounds), widths(bounds)
+    """Scores of intervals (n_rows, n_coordinates, 2) in mm, over all rows and coordinates."""
+    is_covered, width = covered(true, bounds), widths(bounds)
     return {
         "n_rows": len(true),
-        "coverage": inside.mean(),
-        "joint_coverage": inside.all(axis=1).mean(),
+        "coverage": is_covered.mean(),
+        "joint_coverage": is_covered.all(axis=1).mean(),
         "mean_width_mm": width.mean(),
         "winkler_mm": winkler_scores(true, bounds, level).mean(),
         "infinite_share": np.isinf(width).mean(),
@@ -149,7 +157,7 @@ def scores(true: Array, bounds: Array, level: float) -> dict[str, float]:
 
 
 def _oracle(frame: pd.DataFrame, name: str) -> pd.Series:
-    """The oracle's Winkler score of the same run, level and subset."""
+    """Winkler score of the oracle for the run, level and subset of each row."""
     key = ["model", "preset", "confidence_level", "subset"]
     known = frame[frame["interval_method"] == name].set_index(key)["winkler_mm"]
     return pd.Series(known.reindex(pd.MultiIndex.from_frame(frame[key])).to_numpy(), index=frame.index)

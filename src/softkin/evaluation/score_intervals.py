@@ -1,4 +1,4 @@
-"""Score intervals: intervals and truth of one dataset -> its rows of interval_metrics.csv."""
+"""Score intervals: intervals and true positions of one dataset -> its interval_metrics.csv."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from softkin.core.bounds import read_bounds
-from softkin.core.errors import SoftkinError
+from softkin.core.errors import DataError
 from softkin.core.files import replacing
 from softkin.core.metrics.interval import (
     clopper_pearson,
@@ -36,8 +36,9 @@ from softkin.uncertainty.stored_outputs import INTERVAL_SUBSETS, StoredOutputs
 
 @dataclass(frozen=True, slots=True)
 class _Setting:
-    """What all rows of one interval have in common; the guarantee is that of this subset."""
+    """What the rows of one method around one run have in common at one level; the guarantee is that on this subset."""
 
+    file: str | Path
     true: Array
     informative: NDArray[np.bool_]
     n_calibration: int
@@ -58,17 +59,25 @@ def score_intervals(
 ) -> None:
     """Write a row per subset, model, preset, method, coordinate and level.
 
-    `intervals` is method -> its intervals; `outputs` what they were made from. A joint region has one row, `joint`.
+    Parameters:
+        table: the tidy table.
+        dataset: its name.
+        methods: interval methods by name.
+        intervals: method -> file of its intervals.
+        regions: joint regions by name, calibrated here; each has one row, `joint`.
+        outputs: the stored outputs that the intervals were calibrated on.
+        output: the metrics (CSV).
 
     Raises:
-        SoftkinError: a symmetric interval of constant width has a Winkler score below twice its mean absolute error,
+        DataError: a symmetric interval of constant width has a mean Winkler score below twice its mean absolute error,
             which cannot be: files of different runs were mixed.
     """
-    everything = {subset: read_subset(table, subset).positions for subset in SUBSETS}
-    truth = {subset: everything[subset] for subset in INTERVAL_SUBSETS}
+    positions = {subset: read_subset(table, subset).positions for subset in SUBSETS}
+    truth = {subset: positions[subset] for subset in INTERVAL_SUBSETS}
     informative = informative_coordinates(outputs.train.positions)
     rows: list[dict[str, Any]] = []
     for name, method in methods.items():
+        n_calibration = _n_calibration(method, outputs)
         stored = dict(list(pd.read_parquet(intervals[name]).groupby(["model", "preset"], sort=False)))
         for run, data in outputs.of(method.calibrated_on):
             scores = _crps(method, outputs, data, truth)
@@ -76,15 +85,21 @@ def score_intervals(
                 bounds = read_bounds(stored[run], subset, outputs.levels)
                 crossings = _crossings(method, outputs, run, subset, bounds)
                 guarantee = method.guarantee if subset == TEST else NO_GUARANTEE
-                n_calibration = 0 if method.guarantee == NO_GUARANTEE else len(data.truth)
                 for place, level in enumerate(outputs.levels):
-                    setting = _Setting(true, informative, n_calibration, level, method, guarantee)
-                    key = {"dataset": dataset, "subset": subset, "model": run[0], "preset": run[1]}
+                    setting = _Setting(intervals[name], true, informative, n_calibration, level, method, guarantee)
+                    key = {"dataset": dataset, "subset": subset, "model": run.model, "preset": run.preset}
                     key |= {"interval_method": name}
                     rows += [key | row for row in _rows(setting, bounds[place], crossings[place], scores[subset])]
-    rows += [{"dataset": dataset, **row} for row in region_rows(outputs, everything, regions)]
+    rows += [{"dataset": dataset, **row} for row in region_rows(outputs, positions, regions)]
     with replacing(output) as temporary:
         pd.DataFrame(rows).to_csv(temporary, index=False)
+
+
+def _n_calibration(method: IntervalMethod[Any], outputs: StoredOutputs) -> int:
+    """Number of rows that the method is calibrated on; 0 if nothing is guaranteed."""
+    if method.guarantee == NO_GUARANTEE:
+        return 0
+    return len(outputs.train if method.calibrated_on.needs_refits else outputs.validation)
 
 
 def _crps(
@@ -93,7 +108,7 @@ def _crps(
     data: CalibrationData,
     truth: Mapping[str, Array],
 ) -> Mapping[str, Array]:
-    """(n_rows, n_coordinates) per subset; not a number for a method that gives no distribution."""
+    """CRPS (n_rows, n_coordinates) in mm per subset; NaN for a method without a distribution."""
     if method.crps is None:
         return {subset: np.full(true.shape, np.nan) for subset, true in truth.items()}
     return outputs.by_subset(method.crps(data, np.concatenate(list(truth.values()))))
@@ -102,7 +117,7 @@ def _crps(
 def _crossings(
     method: IntervalMethod[Any], outputs: StoredOutputs, run: Run, subset: str, bounds: Array
 ) -> NDArray[np.bool_]:
-    """Where predicted quantiles crossed before they were put in order, (n_levels, n_rows, n_coordinates)."""
+    """Whether predicted quantiles crossed before they were put in order, (n_levels, n_rows, n_coordinates)."""
     if method.calibrated_on is not QuantileCalibration:
         return np.zeros(bounds.shape[:-1], dtype=bool)
     raw = read_bounds(outputs.quantiles[run], subset, outputs.levels)
@@ -110,15 +125,16 @@ def _crossings(
 
 
 def _rows(setting: _Setting, bounds: Array, crossings: NDArray[np.bool_], scores: Array) -> Iterator[dict[str, Any]]:
-    inside = covered(setting.true, bounds)
+    """A row per coordinate, two means over coordinates, and one of all moving coordinates together."""
+    is_covered = covered(setting.true, bounds)
     width = widths(bounds)
     winkler = winkler_scores(setting.true, bounds, setting.level)
     infinite = np.isinf(width)
     if setting.method.has_constant_width and not infinite.any():
         _check_winkler(setting, bounds, winkler)
     n_rows, n_coordinates = setting.true.shape
-    bands = [_band(setting, int(count)) for count in inside.sum(axis=0)]
-    # Holm over the coordinates that move: a constant one says nothing, and must not weaken what the others say.
+    bands = [_band(setting, int(count)) for count in is_covered.sum(axis=0)]
+    # Holm over moving coordinates only: constant ones carry no information and would inflate the adjusted p-values.
     adjusted = np.full(n_coordinates, np.nan)
     if setting.guarantee == MARGINAL:
         p_values = np.array([band["coverage_p_value"] for band in bands])
@@ -127,7 +143,7 @@ def _rows(setting: _Setting, bounds: Array, crossings: NDArray[np.bool_], scores
 
     def averages(mask: Any) -> dict[str, Any]:
         return {
-            "coverage": inside[:, mask].mean(),
+            "coverage": is_covered[:, mask].mean(),
             "mean_width_mm": width[:, mask].mean(),
             "winkler_mm": winkler[:, mask].mean(),
             "crps_mm": scores[:, mask].mean(),
@@ -140,7 +156,7 @@ def _rows(setting: _Setting, bounds: Array, crossings: NDArray[np.bool_], scores
         yield {**common, "coordinate": name, **averages(i), **bands[i], "coverage_p_value_holm": adjusted[i]}
     for name, mask in (("mean", np.ones(n_coordinates, bool)), ("mean_informative", setting.informative)):
         yield {**common, "coordinate": name, **averages(mask)}
-    together = inside[:, setting.informative].all(axis=1)
+    together = is_covered[:, setting.informative].all(axis=1)
     low, high = clopper_pearson(int(together.sum()), n_rows)
     yield {
         **common,
@@ -158,14 +174,16 @@ def _rows(setting: _Setting, bounds: Array, crossings: NDArray[np.bool_], scores
 def _check_winkler(setting: _Setting, bounds: Array, winkler: Array) -> None:
     least = 2 * np.abs(setting.true - bounds.mean(axis=-1)).mean(axis=0)
     if (winkler.mean(axis=0) < least * (1 - 1e-6)).any():
-        raise SoftkinError(
-            f"intervals by '{setting.method.name}': a mean Winkler score lies below twice the mean absolute error, "
-            "which no symmetric interval of constant width can have; mend: delete results/<dataset>/intervals and rerun"
+        raise DataError(
+            "a mean Winkler score lies below twice the mean absolute error, which no symmetric interval of constant "
+            "width can have: files of different runs were mixed",
+            where=setting.file,
+            fix="delete the folder of this file and run again",
         )
 
 
 def _band(setting: _Setting, n_covered: int) -> dict[str, float]:
-    """With a guarantee, the band in which its coverage must lie and the p-value; else the coverage's own interval."""
+    """The band in which the coverage must lie and its p-value; without a guarantee its Clopper-Pearson interval."""
     n_rows = len(setting.true)
     if setting.guarantee != MARGINAL or setting.method.rank is None:
         low, high = clopper_pearson(n_covered, n_rows)

@@ -1,4 +1,4 @@
-"""Score: predictions and truth of one dataset -> its rows of the point-metric tables."""
+"""Score points: predictions and true positions of one dataset -> its rows of the point-metric tables."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from softkin.core.runs import Run
 from softkin.core.samples import EXTRAPOLATION, SUBSETS, TEST, TRAIN, coordinate_columns, informative_coordinates
 from softkin.data.table import read_subset
 
-#: Run -> paths of its predictions, fit record and prediction record.
+#: Run -> paths of its `predictions`, `fit` record and `predict` record.
 Runs = Mapping[Run, Mapping[str, str]]
 
 
@@ -23,7 +23,15 @@ SPACE_COLUMNS = ["dataset", "subset", "model", "target_space", "is_chosen", "she
 
 
 def score(table: str | Path, *, dataset: str, runs: Runs, point: str | Path, markers: str | Path) -> None:
-    """Write `point` (a row per subset, model, preset) and `markers` (a row per subset, model, preset, marker)."""
+    """Write the point metrics of all runs.
+
+    Parameters:
+        table: the tidy table.
+        dataset: its name.
+        runs: run -> its files.
+        point: output (CSV), a row per subset, model and preset.
+        markers: output (CSV), a row per subset, model, preset and marker.
+    """
     truth = {subset: read_subset(table, subset).positions for subset in SUBSETS}
     informative = informative_coordinates(truth[TRAIN])
     point_rows: list[dict[str, Any]] = []
@@ -59,22 +67,28 @@ def score_spaces(
     others: str | Path | None,
     output: str | Path,
 ) -> None:
-    """Write `output` (CSV): of each model in the target space that its search by outer shells chose, and in the other,
-    shell_mae_mm, and RMSE and MAE on test and extrapolation as in the point metrics.
+    """Write RMSE and MAE on test and extrapolation of each model in either target space.
 
-    `parameters` and `chosen` are model -> file of what the search found, of the predictions of what it chose; `others`
-    are those of `refit_spaces`. Without any, there are no rows.
+    One space is that chosen by the study on outer shells; `shell_mae_mm` is its score there.
+
+    Parameters:
+        table: the tidy table.
+        dataset: its name.
+        parameters: model -> file of the best parameters of its study.
+        chosen: model -> file of its predictions in the chosen space.
+        others: file of `refit_spaces`, the predictions in the other spaces; None: the output has no rows.
+        output: the scores (CSV).
     """
     truth = {subset: read_subset(table, subset).positions for subset in (TEST, EXTRAPOLATION)}
     other_space = pd.DataFrame(columns=["model"]) if others is None else pd.read_parquet(others)
     rows: list[dict[str, Any]] = []
     for model, path in parameters.items():
-        found, other = read_json(path), other_space[other_space["model"] == model]
+        best, other = read_json(path), other_space[other_space["model"] == model]
         if other.empty:
             continue
-        for about, predictions in ((found, pd.read_parquet(chosen[model])), (found["other_space"], other)):
-            key = {"dataset": dataset, "model": model, "target_space": about["target_space"]}
-            key |= {"is_chosen": about is found, "shell_mae_mm": about["shell_mae_mm"]}
+        for in_space, predictions in ((best, pd.read_parquet(chosen[model])), (best["other_space"], other)):
+            key = {"dataset": dataset, "model": model, "target_space": in_space["target_space"]}
+            key |= {"is_chosen": in_space is best, "shell_mae_mm": in_space["shell_mae_mm"]}
             for subset, true in truth.items():
                 columns = coordinate_columns(true.shape[1] // 3)
                 predicted = predictions.loc[predictions["subset"] == subset, columns].to_numpy(np.float64)

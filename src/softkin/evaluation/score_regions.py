@@ -1,4 +1,4 @@
-"""Joint regions and alarms: residuals of every model -> coverage and size, and the rate of false alarms."""
+"""Score joint regions and alarms: residuals of every run -> coverage and size, and rates of alarms."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from softkin.uncertainty.intervals.spec import NO_GUARANTEE
 from softkin.uncertainty.regions.spec import RegionMethod
 from softkin.uncertainty.stored_outputs import INTERVAL_SUBSETS, StoredOutputs, predicted_rows
 
-#: How far (mm) the whole robot is moved away to see whether an alarm is raised; 0 gives the false alarms.
+#: Displacements (mm) of the whole robot at which the rate of alarms is measured; 0 gives the false alarms.
 DISPLACEMENTS_MM = (0.0, 1.0, 2.0, 5.0, 10.0)
-#: What a region promises of the joint coverage.
+#: Guarantees of the joint coverage of a region.
 JOINT, AT_LEAST = "joint", "joint, at least"
 
 
 def moving_residuals(outputs: StoredOutputs, truth: Mapping[str, Array]) -> Iterator[tuple[Run, dict[str, Array]]]:
-    """(model, preset) and, per subset, truth minus prediction (n_rows, n_moving) in mm of its moving coordinates."""
+    """Each run with its residuals by subset: true minus predicted moving coordinates (n_rows, n_moving) in mm."""
     moving = informative_coordinates(truth[TRAIN])
     for run, stored in outputs.predictions.items():
         yield run, {subset: (true - predicted_rows(stored, [subset]))[:, moving] for subset, true in truth.items()}
@@ -35,7 +35,7 @@ def moving_residuals(outputs: StoredOutputs, truth: Mapping[str, Array]) -> Iter
 def region_rows(
     outputs: StoredOutputs, truth: Mapping[str, Array], methods: Mapping[str, RegionMethod]
 ) -> Iterator[dict[str, Any]]:
-    """A row of interval_metrics.csv per model, preset, kind of region, level and subset; `truth` of all subsets."""
+    """A row of interval_metrics.csv per run, region, level and subset; `truth` is subset -> true positions, of all."""
     markers = _markers(truth)
     for (model, preset), residuals in moving_residuals(outputs, truth):
         for name, method in methods.items():
@@ -47,7 +47,15 @@ def region_rows(
 def score_alarms(
     outputs: StoredOutputs, truth: Mapping[str, Array], *, dataset: str, seed: int, output: str | Path
 ) -> None:
-    """Write the share of rows that their p-value calls anomalous, by level and displacement (CSV)."""
+    """Write the share of rows that their p-value calls anomalous, by run, level, subset and displacement.
+
+    Parameters:
+        outputs: stored outputs of the dataset.
+        truth: subset -> true positions (n_rows, n_coordinates) in mm, of all subsets.
+        dataset: its name.
+        seed: of the directions of displacements.
+        output: the rates (CSV).
+    """
     rows = []
     for (model, preset), residuals in moving_residuals(outputs, truth):
         for level in outputs.levels:
@@ -58,19 +66,20 @@ def score_alarms(
 
 
 def _markers(truth: Mapping[str, Array]) -> NDArray[np.intp]:
-    """Whose each moving coordinate is."""
+    """Marker (n_moving,) of each moving coordinate."""
     return np.flatnonzero(informative_coordinates(truth[TRAIN])) // 3
 
 
 def _coverages(
     method: RegionMethod, residuals: Mapping[str, Array], markers: NDArray[np.intp], level: float
 ) -> Iterator[dict[str, Any]]:
+    """A row per subset of one region at one level."""
     region = method.region(residuals[TRAIN], residuals[VALIDATION], markers, level)
     n_calibration = len(residuals[VALIDATION])
     rank = conformal_rank(n_calibration, level)
     for subset in INTERVAL_SUBSETS:
-        inside = region.covers(residuals[subset])
-        n_rows, n_covered = len(inside), int(inside.sum())
+        is_covered = region.covers(residuals[subset])
+        n_rows, n_covered = len(is_covered), int(is_covered.sum())
         low, high = clopper_pearson(n_covered, n_rows)
         p_value = float("nan")
         if subset == TEST and method.is_exact and rank is not None:
@@ -96,10 +105,10 @@ def _coverages(
 def alarm_rates(
     residuals: Mapping[str, Array], markers: NDArray[np.intp], level: float, seed: int
 ) -> Iterator[dict[str, Any]]:
-    """Share of rows whose p-value is at most alpha = 1 - level: one coordinate at a time (averaged), and jointly.
+    """Share of rows whose p-value is at most alpha = 1 - level: mean over single coordinates, and of whole poses.
 
-    Every marker is moved by a displacement in one random direction per row. On `test` without displacement the share
-    must be about alpha, at most: these are the false alarms.
+    All markers of a row are displaced in one random direction. Alarms on `test` without displacement are false ones;
+    their expected share is at most alpha.
     """
     alpha = round(1 - level, 12)
     calibration = residuals[VALIDATION]
@@ -127,7 +136,7 @@ def alarm_rates(
 
 
 def _axes(markers: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Which direction (0, 1, 2) each coordinate has within its marker, counting those that move."""
+    """Place (0, 1, 2) of each coordinate (n_moving,) among the moving coordinates of its marker."""
     starts = np.r_[True, markers[1:] != markers[:-1]]
     place = np.arange(len(markers))
     return place - np.maximum.accumulate(np.where(starts, place, 0))

@@ -1,4 +1,4 @@
-"""The pool: one file a model, one line here. Importing this package imports no learning library."""
+"""Registry of point models: one file a model, one line here. Importing it imports no machine-learning library."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Gaussian process: a kernel shared by all coordinates, so that one Cholesky factor serves them all."""
+"""Gaussian process: one kernel, and so one Cholesky factor, for all coordinates."""
 
 from __future__ import annotations
 

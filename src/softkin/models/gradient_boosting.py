@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def build(params: Params, seed: int, threads: int) -> Any:
-    """One GradientBoostingRegressor(**params) per coordinate, on what is left of a `trend`."""
+    """One GradientBoostingRegressor(**params) per coordinate, on the residuals of a `trend`."""
     from sklearn.ensemble import GradientBoostingRegressor
     from sklearn.multioutput import MultiOutputRegressor
 
@@ -22,7 +22,7 @@ def build(params: Params, seed: int, threads: int) -> Any:
 
 
 def search_space(trial: BaseTrial) -> Params:
-    """At most 250 trees of depth 6: the dearest model of the pool, 21 coordinates on ABAQUS."""
+    """At most 250 trees of depth 6: with 21 coordinates (ABAQUS) no model costs more to fit."""
     return {
         "trend": trial.suggest_categorical("trend", TRENDS),
         "n_estimators": trial.suggest_int("n_estimators", 100, 250, step=50),

@@ -15,7 +15,7 @@ MAX_ITER = 1000
 
 def build(params: Params, seed: int, threads: int) -> Any:
     """Polynomial of `degree` fitted with `epsilon` and `alpha` of HuberRegressor: beyond epsilon standard deviations a
-    row counts linearly, so that one that does not belong hardly bends the fit.
+    residual counts linearly, so that a gross error hardly changes the fit.
     """
     from sklearn.linear_model import HuberRegressor
     from sklearn.multioutput import MultiOutputRegressor
@@ -28,7 +28,7 @@ def build(params: Params, seed: int, threads: int) -> Any:
 
 
 def search_space(trial: BaseTrial) -> Params:
-    """Degree 1 to 4, and from which residual on a row counts less."""
+    """Degree 1 to 4, the residual beyond which a row counts linearly, and the penalty."""
     return {
         "degree": trial.suggest_int("degree", 1, 4),
         "epsilon": trial.suggest_float("epsilon", 1.05, 3.0),

@@ -15,7 +15,7 @@ MAX_ITER = 5000
 
 
 def build(params: Params, seed: int, threads: int) -> Any:
-    """Lasso(alpha) on features of `degree` (default 1), rescaled so that the penalty treats them alike."""
+    """Lasso(alpha) on polynomial features of `degree` (default 1), standardised so that one penalty suits all."""
     from sklearn.linear_model import Lasso
     from sklearn.pipeline import make_pipeline
     from sklearn.preprocessing import PolynomialFeatures, StandardScaler

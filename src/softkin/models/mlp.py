@@ -14,9 +14,11 @@ if TYPE_CHECKING:
 
 
 def build(params: Params, seed: int, threads: int) -> Any:
-    """MLPRegressor(**params) with `width` neurons in each of `layers` hidden layers; `random_state` may be given.
+    """MLPRegressor(**params) with `width` neurons in each of `layers` hidden layers; `params`
+    may set `random_state`.
 
-    Of several `networks` (default 1), which differ in their seed alone, the mean; all on what is left of a `trend`.
+    Several `networks` (default 1) differ in their seed alone, and their mean is predicted. All are fitted on the
+    residuals of a `trend`.
     """
     from softkin.models.estimators.detrended import detrended
 
@@ -35,10 +37,10 @@ def _networks(params: Params, seed: int) -> Any:
 
 
 def spread(regressor: Any, train: Samples, commands: Array) -> Array:
-    """Standard deviation of the last layer's Laplace approximation: the network as a Bayesian one.
+    """Predictive standard deviation by the last layer's Laplace approximation.
 
-    Several networks are a mixture: the mean of their variances, and the variance of their means (Lakshminarayanan et
-    al. 2017, section 2.4).
+    Several networks are a mixture, of variance: the mean of their variances plus the variance of their means
+    (Lakshminarayanan et al. 2017, section 2.4).
     """
     from softkin.models.estimators.detrended import spread_around
 

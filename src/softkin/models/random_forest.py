@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def build(params: Params, seed: int, threads: int) -> Any:
-    """RandomForestRegressor(**params), on what is left of a `trend`."""
+    """RandomForestRegressor(**params), on the residuals of a `trend`."""
     from sklearn.ensemble import RandomForestRegressor
 
     from softkin.models.estimators.detrended import detrended
@@ -35,7 +35,7 @@ def _spread_of_trees(regressor: Any, train: Samples, commands: Array) -> Array:
 
 
 def search_space(trial: BaseTrial) -> Params:
-    """Deep trees; what matters is the leaf size and how many commands a split may choose from."""
+    """Deep trees; leaf size and the share of commands that a split chooses from matter most."""
     return {
         "trend": trial.suggest_categorical("trend", TRENDS),
         "n_estimators": trial.suggest_int("n_estimators", 50, 300, step=50),

@@ -1,4 +1,4 @@
-"""Ridge regression on quadratic or cubic features of the commands: the shape of a bending arm, and little more."""
+"""Ridge regression on quadratic or cubic features of the commands, the shape of a bending arm."""
 
 from __future__ import annotations
 

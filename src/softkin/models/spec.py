@@ -1,4 +1,4 @@
-"""What a point model of the pool is."""
+"""Specification of a point model: an entry of the registry."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ if TYPE_CHECKING:
 
 #: The run that the paper puts its intervals around.
 PAPERS_RUN = Run("gb", PAPER)
-#: The trends on whose residuals a model that extrapolates as a constant may be fitted; the place is the degree.
+#: Trends on whose residuals a model that extrapolates as a constant may be fitted; the index is the degree.
 TRENDS = ("none", "linear", "quadratic")
 
 
 @dataclass(frozen=True, slots=True)
 class ModelSpec:
-    """One point model of the pool.
+    """One point model.
 
     `build(params, seed, threads)` returns an unfitted multi-output scikit-learn regressor that works in
     standardised space. `paper_params` are the fixed settings of the paper's rows, or scikit-learn's own for a model

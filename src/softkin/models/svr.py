@@ -1,4 +1,4 @@
-"""Support vector regression: one machine per coordinate, RBF or polynomial kernel."""
+"""Support vector regression: one regressor per coordinate, RBF or polynomial kernel."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ if TYPE_CHECKING:
     from optuna.trial import BaseTrial
 
 #: Bounds libsvm's iterations per coordinate. Without it C=100, epsilon=0.001 runs for minutes on 3160 rows; with it
-#: the machine stops close to the optimum.
+#: the solver stops close to the optimum.
 MAX_ITER = 20_000
 CACHE_MB = 400
 
 
 def build(params: Params, seed: int, threads: int) -> Any:
-    """One SVR(**params) per coordinate, on what is left of a `trend`; `max_iter` (default none) bounds the solver."""
+    """One SVR(**params) per coordinate, on the residuals of a `trend`; `max_iter` (default none) bounds the solver."""
     from sklearn.multioutput import MultiOutputRegressor
     from sklearn.svm import SVR
 

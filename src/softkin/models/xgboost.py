@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def build(params: Params, seed: int, threads: int) -> Any:
-    """XGBRegressor(**params), on what is left of a `trend`."""
+    """XGBRegressor(**params), on the residuals of a `trend`."""
     from xgboost import XGBRegressor
 
     from softkin.models.estimators.detrended import detrended

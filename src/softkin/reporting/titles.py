@@ -1,4 +1,4 @@
-"""What models and interval methods are called in tables, figures and the report."""
+"""Titles of models and interval methods in tables, figures and the report."""
 
 from __future__ import annotations
 
@@ -12,3 +12,7 @@ class Titles:
 
     models: Mapping[str, str]
     methods: Mapping[str, str]
+
+    def run(self, model: str, preset: str) -> str:
+        """'Gaussian process, tuned'."""
+        return f"{self.models[model]}, {preset}"

@@ -1,4 +1,4 @@
-"""Result files -> MLflow. The only package that imports mlflow for logging; computing jobs never do."""
+"""Log result files to MLflow: runs, figures and registered models. No other package imports mlflow."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The calibrated model of a dataset in MLflow's registry, under the alias `champion`."""
+"""Register the calibrated model of a dataset in MLflow's registry, under the alias `champion`."""
 
 from __future__ import annotations
 
@@ -21,10 +21,21 @@ from mlflow.types import ColSpec, ParamSchema, ParamSpec, Schema
 from mlflow.utils.mlflow_tags import MLFLOW_MODEL_VERSIONS
 
 import softkin
-from softkin.core.files import read_json, sha256_of
+from softkin.core.files import sha256_of
 from softkin.core.samples import command_columns, coordinate_columns
 from softkin.tracking.model_card import model_card
-from softkin.tracking.store import CONTENT, NOTE, PARENT, Campaign, Record, client_of, common_tags, experiment_of, put
+from softkin.tracking.store import (
+    CONTENT,
+    NOTE,
+    PARENT,
+    Campaign,
+    Record,
+    client_of,
+    common_tags,
+    experiment_of,
+    put,
+    read_description,
+)
 from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.choose import nearest_level
 from softkin.uncertainty.intervals.spec import AUTO
@@ -33,9 +44,9 @@ logger = logging.getLogger("softkin")
 
 ALIAS = "champion"
 PARTS = ("y_pred", "lower", "upper")
-#: What a calibrated model needs where it is loaded; softkin itself comes with it.
+#: The packages that a calibrated model needs where it is loaded; softkin's own code is logged with it.
 REQUIREMENTS = ("mlflow", "numpy", "pandas", "scipy", "scikit-learn", "xgboost", "mapie", "crepes", "joblib", "pyarrow")
-#: Rows of `train` that show what a command looks like.
+#: Rows of `train` in the input example.
 EXAMPLES = 3
 
 
@@ -49,30 +60,39 @@ def log_champion(
     calibrated_model: str | Path,
     parent: str,
 ) -> str:
-    """Log the run of the calibrated model, a child of the campaign's run `parent`, and give its version the alias.
+    """Log the run of the calibrated model, register it, and give its version the alias; return the version.
 
-    Returns the version. The one that is there is kept while model and card are the same; versions of other content
-    stay in the registry, without the alias.
+    The version that is there is kept while model and card are the same; versions of other content stay in the registry,
+    without the alias.
+
+    Parameters:
+        campaign: the run of the workflow.
+        description: dataset.json.
+        data_card: data_card.json.
+        point: point_metrics.csv.
+        intervals: interval_metrics.csv.
+        calibrated_model: the calibrated model (joblib).
+        parent: id of the campaign's run.
     """
     client = client_of(campaign.tracking_uri)
-    about = read_json(description) | {"findings": read_json(data_card)["findings"]}
+    described = read_description(description, data_card)
     model: CalibratedModel = joblib.load(calibrated_model)
-    name = f"softkin-{about['dataset']}"
+    name = f"softkin-{described['dataset']}"
     key = {"model": model.spec.name, "preset": model.preset}
     scores = _rows(pd.read_csv(point), **key)
-    # Of one interval for everywhere, where the model has shells; inside the training region they are the same.
+    # A model with shells gives the intervals of this method; in-domain they are those of its own.
     method = AUTO if model.shells else model.method.name
     table = _rows(pd.read_csv(intervals), **key, interval_method=method, coordinate="mean_informative")
     level = nearest_level(sorted(table["confidence_level"].unique()))
     shown = table[table["confidence_level"] == level]
-    card = model_card(model, registered=name, about=about, scores=scores, intervals=shown, level=level)
+    card = model_card(model, registered=name, description=described, scores=scores, intervals=shown, level=level)
     record = Record(
-        key=f"{campaign.name}/{about['dataset']}/{ALIAS}",
-        name=f"{about['dataset']} · {ALIAS}",
+        key=f"{campaign.name}/{described['dataset']}/{ALIAS}",
+        name=f"{described['dataset']} · {ALIAS}",
         content={"model": sha256_of([calibrated_model]), "card": card},
         tags={
             PARENT: parent,
-            **common_tags(campaign, about),
+            **common_tags(campaign, described),
             "kind": ALIAS,
             **key,
             "interval_method": model.method.name,
@@ -83,7 +103,7 @@ def log_champion(
         texts={"model_card.md": card},
         started=campaign.started,
     )
-    run_id = put(client, experiment_of(client, about["dataset"], campaign.artifacts), record)
+    run_id = put(client, experiment_of(client, described["dataset"], campaign.artifacts), record)
     return _version(client, name, run_id, record, Path(calibrated_model), model, level)
 
 
@@ -95,7 +115,7 @@ def _rows(table: pd.DataFrame, **wanted: str) -> pd.DataFrame:
 
 
 def _metrics(scores: pd.DataFrame, intervals: pd.DataFrame, level: float) -> dict[str, float]:
-    """The headline's numbers, named as in the other runs."""
+    """The metrics of the run, named as in the runs of models and of intervals."""
     values = {f"{subset}/euclidean_mean_mm": float(value) for subset, value in scores["euclidean_mean_mm"].items()}
     for name in ("coverage", "mean_width_mm", "winkler_mm"):
         values |= {f"{subset}/{name}_{100 * level:g}": float(value) for subset, value in intervals[name].items()}
@@ -105,7 +125,7 @@ def _metrics(scores: pd.DataFrame, intervals: pd.DataFrame, level: float) -> dic
 def _version(
     client: MlflowClient, name: str, run_id: str, record: Record, file: Path, model: CalibratedModel, level: float
 ) -> str:
-    """The version with this content, made where there is none; it has the alias."""
+    """The version with this content, registered where there is none; it gets the alias."""
     content = hashlib.sha256(json.dumps([record.key, record.content], sort_keys=True).encode()).hexdigest()
     same = [v for v in client.search_model_versions(f"name = '{name}'") if v.tags.get(CONTENT) == content]
     if same:
@@ -134,7 +154,7 @@ def _version(
 def _log_model(
     client: MlflowClient, run_id: str, name: str, file: Path, model: CalibratedModel, level: float, tags: dict[str, Any]
 ) -> str:
-    """Id of the logged model: softkin's code, the calibrated model and what they need, as an output of the run."""
+    """Log the calibrated model with softkin's code and its requirements as an output of the run; return its id."""
     experiment = client.get_run(run_id).info.experiment_id
     logged = client.create_logged_model(experiment, name=name, source_run_id=run_id, tags=tags)
     commands = command_columns(model.train.commands.shape[1])

@@ -1,4 +1,4 @@
-"""Which run each figure of a dataset shows."""
+"""Read which run each figure of a dataset shows."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ Shown = dict[tuple[str, str, str], list[Path]]
 
 
 def shown_in(folder: str | Path) -> Shown:
-    """Read the index.csv of a dataset's figures."""
-    found: Shown = {}
+    """The pictures by run, from the index.csv in the `folder` of a dataset's figures."""
+    pictures: Shown = {}
     index = pd.read_csv(Path(folder) / "index.csv", dtype=str, keep_default_na=False)
     for row in index.to_dict("records"):
         run = (row["model"], row["preset"], row["interval_method"])
-        found.setdefault(run, []).append(Path(folder) / f"{row['figure']}.png")
-    return found
+        pictures.setdefault(run, []).append(Path(folder) / f"{row['figure']}.png")
+    return pictures
 
 
 def content_of(pictures: Sequence[Path]) -> list[str]:
-    """A hash per picture: a figure drawn anew, in another style, is another content."""
+    """SHA-256 of each picture: a figure that is drawn in another style is another content."""
     return [sha256_of([picture]) for picture in pictures]

@@ -1,4 +1,4 @@
-"""A run per model, preset and interval method, nested under the run of its model."""
+"""Log the interval metrics: a run per model, preset and interval method, nested under the run of its model."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from softkin.core.files import read_json
 from softkin.core.samples import TEST
 from softkin.tracking.figure_index import content_of, shown_in
 from softkin.tracking.store import (
@@ -22,12 +21,13 @@ from softkin.tracking.store import (
     experiment_of,
     find,
     put,
+    read_description,
 )
 
 #: Rows of interval_metrics.csv that become metrics -> what their names start with.
 SHOWN = {"mean_informative": "", "joint": "joint_"}
 REGIONS = "joint_regions"
-#: Milliseconds.
+#: Milliseconds by which these runs start before the models: the UI loads a hundred runs, newest first.
 MODELS_FIRST = 1000
 METRICS = ("coverage", "mean_width_mm", "winkler_mm", "crps_mm", "size_mm", "infinite_share", "crossing_share")
 
@@ -43,26 +43,32 @@ def log_intervals(
 ) -> int:
     """Log the dataset's interval metrics; return how many runs there are.
 
-    `figures` is the folder of the dataset's figures, whose index.csv says which run each of them shows; `parents` is
-    'model/preset' -> run id of the model, as `log_dataset` returns it. QR and CQR hang on the model of their learner's
-    name.
+    QR and CQR are children of the model of their quantile regressor's name.
+
+    Parameters:
+        campaign: the run of the workflow.
+        description: dataset.json.
+        data_card: data_card.json.
+        metrics: interval_metrics.csv.
+        figures: folder of the dataset's figures, whose index.csv says which run each of them shows.
+        parents: 'model/preset' -> run id of the model, as `log_dataset` returns it.
     """
     client = client_of(campaign.tracking_uri)
-    about = read_json(description) | {"findings": read_json(data_card)["findings"]}
-    tags = common_tags(campaign, about)
-    experiment = experiment_of(client, about["dataset"], campaign.artifacts)
+    described = read_description(description, data_card)
+    tags = common_tags(campaign, described)
+    experiment = experiment_of(client, described["dataset"], campaign.artifacts)
     shown = shown_in(figures)
     kept = set()
     table = pd.read_csv(metrics)
-    # All shapes of joint region around a model share a run: one row each is all they have.
+    # All shapes of joint region around a model share a run: each has one row per subset and level.
     marginal = set(table.loc[table["coordinate"] == "mean_informative", "interval_method"])
     table["run"] = table["interval_method"].where(table["interval_method"].isin(marginal), REGIONS)
     for (model, preset, method), rows in table.groupby(["model", "preset", "run"]):
         parent = parents.get(f"{model}/{preset}", parents["campaign"])
         key = (str(model), str(preset), str(method))
         kept.add(put(client, experiment, _record(campaign, tags, key, rows, parent, shown.get(key, []))))
-    there = find(client, experiment, campaign=campaign.name, kind="intervals")
-    delete(client, [run for run in there if run.info.run_id not in kept])
+    logged = find(client, experiment, campaign=campaign.name, kind="intervals")
+    delete(client, [run for run in logged if run.info.run_id not in kept])
     return len(kept)
 
 
@@ -97,7 +103,6 @@ def _record(
         metrics=_metrics(rows),
         texts={"interval_metrics.csv": table},
         figures=[str(path) for path in figures],
-        # Below the models: the UI loads a hundred runs, newest first.
         started=campaign.started - MODELS_FIRST,
     )
 

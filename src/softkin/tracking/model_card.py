@@ -1,4 +1,4 @@
-"""The card of a registered model, in Markdown: how good, what is promised, on which data, how to use it."""
+"""Write the card of a registered model, in Markdown: errors, guarantee, data, use."""
 
 from __future__ import annotations
 
@@ -9,22 +9,27 @@ import pandas as pd
 
 from softkin.core.samples import EXTRAPOLATION, TEST
 from softkin.data.audit.findings import counted
-from softkin.reporting.tables.paper_layout import format_number
+from softkin.reporting.tables.numbers import number_text, share_text
 from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.intervals.spec import MARGINAL
 
-#: What to warn of before anything else, by the origin of the data.
+#: The warning at the top of the card, by the origin of the data.
 ORIGINS = {"stand-in": "STAND-IN: simulated data in place of the published ones. Nothing here is about the real robot."}
-PROMISES = {
-    True: "An interval at {level:.0%} holds the coordinate it is about in at least {level:.0%} of cases, for commands "
-    "drawn like the {n} rows of `validation` that calibrated it. That is coordinate by coordinate, not all at once.",
-    False: "Of intervals by this method, nothing is promised.",
+#: By whether the interval method has a marginal guarantee.
+GUARANTEES = {
+    True: "An interval at {level} holds its coordinate in at least {level} of cases, for commands drawn like the {n} "
+    "rows of `validation` that calibrated it. That is coordinate by coordinate, not all at once.",
+    False: "Intervals by this method have no guarantee.",
 }
-#: Whether intervals outside the training region are made for there.
-BEYOND = {
-    True: "Outside the range of the training commands nothing is promised, neither of positions nor of intervals. "
-    "Intervals there are widened, by what the same model got wrong outside inner cores of the training commands.",
-    False: "Outside the range of the training commands nothing is promised, neither of positions nor of intervals.",
+IN_EXTRAPOLATION = (
+    "In extrapolation, for commands unlike those of training, nothing is guaranteed, neither of positions nor of "
+    "intervals."
+)
+#: By whether intervals are made for extrapolation.
+EXTRAPOLATION_NOTES = {
+    True: f"{IN_EXTRAPOLATION} Intervals there are widened by the errors of the same model on outer shells of the "
+    "training commands.",
+    False: IN_EXTRAPOLATION,
 }
 
 
@@ -32,42 +37,52 @@ def model_card(
     model: CalibratedModel,
     *,
     registered: str,
-    about: Mapping[str, Any],
+    description: Mapping[str, Any],
     scores: pd.DataFrame,
     intervals: pd.DataFrame,
     level: float,
 ) -> str:
-    """Markdown; `scores` are the model's rows of point_metrics.csv by subset, `intervals` those of its method in
-    interval_metrics.csv, averaged over moving coordinates at `level`, by subset. `about` is the dataset's description
-    with its `findings`.
+    """The card in Markdown.
+
+    Parameters:
+        model: the calibrated model.
+        registered: its name in the registry.
+        description: the dataset's description with the `findings` of its data card.
+        scores: the model's rows of point_metrics.csv, by subset.
+        intervals: the rows of its method in interval_metrics.csv, at `level`, averaged over moving coordinates, by
+            subset.
+        level: nominal level in (0, 1).
     """
-    lines = [f"# {about['title']}", ""]
-    lines += [f"**{ORIGINS[about['origin']]}**", ""] if about["origin"] in ORIGINS else []
+    origin, percent = description["origin"], share_text(level, 0)
+    lines = [f"# {description['title']}", ""]
+    lines += [f"**{ORIGINS[origin]}**", ""] if origin in ORIGINS else []
+    commands = counted(description["n_commands"], "command")
+    markers = counted(description["n_markers"], "marker")
     lines += [
-        f"{model.spec.title} ({model.preset} preset): {counted(about['n_commands'], 'command')} to the position of "
-        f"{counted(about['n_markers'], 'marker')}, with intervals by {model.method.title}.",
+        f"{model.spec.title} ({model.preset} preset): {commands} to the position of {markers}, with intervals by "
+        f"{model.method.title}.",
         "",
-        f"| rows | mean marker error, mm | 95 % below, mm | RMSE, mm | {level:.0%} intervals cover | mean width, mm |",
+        f"| rows | mean marker error, mm | 95 % below, mm | RMSE, mm | {percent} intervals cover | mean width, mm |",
         "| --- | --- | --- | --- | --- | --- |",
     ]
     for subset in (TEST, EXTRAPOLATION):
         point, interval = scores.loc[subset], intervals.loc[subset]
-        numbers = [format_number(point[name]) for name in ("euclidean_mean_mm", "euclidean_p95_mm", "rmse_mm")]
-        numbers += [f"{interval['coverage']:.1%}", format_number(interval["mean_width_mm"])]
-        lines.append(f"| {subset} | {' | '.join(numbers)} |")
-    promise = PROMISES[model.method.guarantee == MARGINAL].format(level=level, n=len(model.known.truth))
-    lines += ["", "## What is promised", "", promise]
-    lines += [BEYOND[bool(model.shells)], ""]
-    lines += ["## Data", "", _rows(about), ""]
-    lines += [f"- **{found['severity']}**: {found['sentence']} {found['consequence']}" for found in about["findings"]]
-    lines += [] if about["findings"] else ["The audit has no finding."]
-    return "\n".join([*lines, "", *_use(registered, about["n_commands"], level)])
+        cells = [number_text(point[name]) for name in ("euclidean_mean_mm", "euclidean_p95_mm", "rmse_mm")]
+        cells += [share_text(interval["coverage"]), number_text(interval["mean_width_mm"])]
+        lines.append(f"| {subset} | {' | '.join(cells)} |")
+    guarantee = GUARANTEES[model.method.guarantee == MARGINAL].format(level=percent, n=len(model.known.truth))
+    lines += ["", "## Guarantee", "", guarantee, EXTRAPOLATION_NOTES[bool(model.shells)], ""]
+    findings = description["findings"]
+    lines += ["## Data", "", _rows(description), ""]
+    lines += [f"- **{finding['severity']}**: {finding['sentence']} {finding['consequence']}" for finding in findings]
+    lines += [] if findings else ["The audit has no finding."]
+    return "\n".join([*lines, "", *_use(registered, description["n_commands"], level)])
 
 
-def _rows(about: Mapping[str, Any]) -> str:
-    rows = ", ".join(f"{number} {subset}" for subset, number in about["rows"].items())
-    cut = " Rows were left out to try things out." if about["is_cut"] else ""
-    return f"{rows} rows; origin: {about['origin']}; sha256 `{about['sha256']}`.{cut}"
+def _rows(description: Mapping[str, Any]) -> str:
+    rows = ", ".join(f"{number} {subset}" for subset, number in description["rows"].items())
+    cut = " Rows were left out (max_rows_per_subset)." if description["is_cut"] else ""
+    return f"{rows} rows; origin: {description['origin']}; sha256 `{description['sha256']}`.{cut}"
 
 
 def _use(registered: str, n_commands: int, level: float) -> list[str]:
@@ -82,7 +97,7 @@ def _use(registered: str, n_commands: int, level: float) -> list[str]:
         f"commands = pandas.DataFrame({{{columns}}})",
         "# in mm: y_pred_m1_x, ..., lower_m1_x, ..., upper_m1_x, ...",
         f'robot.predict(commands, params={{"confidence_level": {level:g}}})',
-        "robot.unwrap_python_model().model  # all of it: boxes and p-values too",
+        "robot.unwrap_python_model().model  # the calibrated model: regions and p-values, too",
         "```",
         "",
     ]

@@ -1,10 +1,11 @@
-"""A run per model and preset, children of the campaign's run."""
+"""Log the runs of a dataset: one per model and preset, children of the campaign's run."""
 
 from __future__ import annotations
 
 import json
 import subprocess
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from mlflow.entities import Dataset, DatasetInput, InputTag
 from softkin import __version__
 from softkin.core.files import read_json, sha256_of
 from softkin.core.runs import Run
+from softkin.core.samples import EXTRAPOLATION, TEST
 from softkin.tracking.figure_index import content_of, shown_in
 from softkin.tracking.saved_view import NAME, TAG, saved_view
 from softkin.tracking.store import (
@@ -27,9 +29,22 @@ from softkin.tracking.store import (
     experiment_of,
     find,
     put,
+    read_description,
 )
 
 TIMINGS = ("fit_seconds", "predict_us_per_row")
+#: The files of a run that become artifacts.
+ARTIFACTS = ("model", "predictions", "trials", "parameters", "fit")
+
+
+@dataclass(frozen=True, slots=True)
+class _ModelRun:
+    """What is logged of a run: its rows of point_metrics.csv, its files by name, and the figures that show it."""
+
+    run: Run
+    scores: pd.DataFrame
+    files: Mapping[str, str]
+    figures: Sequence[Path]
 
 
 def log_dataset(
@@ -41,82 +56,81 @@ def log_dataset(
     figures: str | Path,
     runs: Mapping[Run, Mapping[str, str]],
 ) -> dict[str, str]:
-    """Log the runs of one dataset, each (model, preset) a child of the campaign's run; return key -> run id.
+    """Log the runs of one dataset as children of the campaign's run; return 'campaign' and 'model/preset' -> run id.
 
-    `data_card` has the findings of the audit. `figures` is the folder of the dataset's figures, whose index.csv says
-    which run each of them shows. `runs` gives for each (model, preset) its files: model, predictions, fit, and for a
-    tuned model parameters and trials.
+    Parameters:
+        campaign: the run of the workflow.
+        description: dataset.json.
+        data_card: data_card.json, which has the findings of the audit.
+        point: point_metrics.csv.
+        figures: folder of the dataset's figures, whose index.csv says which run each of them shows.
+        runs: run -> its files: model, predictions, fit, and of a searched model parameters and trials.
 
     Raises:
-        SoftkinError: the store is gone.
+        StoreError: the store is gone.
     """
     client = client_of(campaign.tracking_uri)
-    about = read_json(description)
-    about["findings"] = read_json(data_card)["findings"]
+    described = read_description(description, data_card)
     scores = pd.read_csv(point)
-    experiment = experiment_of(client, about["dataset"], campaign.artifacts)
-    note = f"**{about['title']}**, {about['origin']}. *Views*, at the top right, has *{NAME}*." + _findings_note(about)
-    for tag, value in {NOTE: note, "origin": about["origin"], TAG: saved_view()}.items():
+    experiment = experiment_of(client, described["dataset"], campaign.artifacts)
+    note = f"**{described['title']}**, {described['origin']}. *Views*, at the top right, has *{NAME}*."
+    note += _findings_note(described)
+    for tag, value in {NOTE: note, "origin": described["origin"], TAG: saved_view()}.items():
         client.set_experiment_tag(experiment, tag, value)
     shown = shown_in(figures)
-    logged = {"campaign": put(client, experiment, _campaign_record(campaign, about, shown.get(("", "", ""), [])))}
-    for place, ((model, preset), files) in enumerate(runs.items(), start=1):
-        mine = scores[(scores["model"] == model) & (scores["preset"] == preset)]
-        pictures = shown.get((model, preset, ""), [])
-        record = _record(campaign, about, model, preset, mine, files, pictures, logged["campaign"], place)
+    parent = put(client, experiment, _campaign_record(campaign, described, shown.get(("", "", ""), [])))
+    logged = {"campaign": parent}
+    for place, (run, files) in enumerate(runs.items(), start=1):
+        model, preset = run
+        of_run = scores[(scores["model"] == model) & (scores["preset"] == preset)]
+        model_run = _ModelRun(Run(model, preset), of_run, files, shown.get((model, preset, ""), []))
+        record = _record(campaign, described, model_run, parent, place)
         logged[f"{model}/{preset}"] = put(client, experiment, record)
     children = find(client, experiment, campaign=campaign.name, kind="model")
-    delete(client, [run for run in children if run.info.run_id not in logged.values()])
+    delete(client, [child for child in children if child.info.run_id not in logged.values()])
     return logged
 
 
 def _record(
-    campaign: Campaign,
-    about: Mapping[str, Any],
-    model: str,
-    preset: str,
-    scores: pd.DataFrame,
-    files: Mapping[str, str],
-    figures: Sequence[Path],
-    parent: str,
-    place: int,
+    campaign: Campaign, description: Mapping[str, Any], model_run: _ModelRun, parent: str, place: int
 ) -> Record:
+    """What MLflow shows of a run; `place` orders the runs, `parent` is the id of the campaign's run."""
+    (model, preset), files = model_run.run, model_run.files
     fit = read_json(files["fit"])
-    tuned = read_json(files["parameters"]) if "parameters" in files else {}
-    metrics = _metrics(scores)
-    curves = _trial_curves(pd.read_csv(files["trials"])) if "trials" in files else []
-    outcome = scores.set_index("subset")["euclidean_mean_mm"]
+    study = read_json(files["parameters"]) if "parameters" in files else {}
+    metrics = _metrics(model_run.scores)
+    errors = model_run.scores.set_index("subset")["euclidean_mean_mm"]
+    note = f"**{description['title']}**, {model}, {preset} preset. Mean marker error: {errors[TEST]:.4g} mm on test, "
+    note += f"{errors[EXTRAPOLATION]:.4g} mm on extrapolation." + _findings_note(description)
     return Record(
-        key=f"{campaign.name}/{about['dataset']}/{model}/{preset}",
-        name=f"{about['dataset']} · {model} · {preset}",
+        key=f"{campaign.name}/{description['dataset']}/{model}/{preset}",
+        name=f"{description['dataset']} · {model} · {preset}",
         content={
             "metrics": {name: value for name, value in metrics.items() if name not in TIMINGS},
             "params": fit["params"],
             "predictions": sha256_of([files["predictions"]]),
-            "fingerprint": tuned.get("fingerprint"),
-            "n_trials": tuned.get("n_trials"),
-            "figures": content_of(figures),
-            "findings": [finding["sentence"] for finding in about["findings"]],
+            "fingerprint": study.get("fingerprint"),
+            "n_trials": study.get("n_trials"),
+            "figures": content_of(model_run.figures),
+            "findings": [finding["sentence"] for finding in description["findings"]],
         },
         tags={
             PARENT: parent,
             "kind": "model",
-            **common_tags(campaign, about),
+            **common_tags(campaign, description),
             "model": model,
             "preset": preset,
             "target_space": fit["target_space"],
             "git_commit": _git_commit(),
             "softkin_version": __version__,
-            NOTE: f"**{about['title']}**, {model}, {preset} preset. Mean marker error: "
-            f"{outcome['test']:.4g} mm on test, {outcome['extrapolation']:.4g} mm on extrapolation."
-            + _findings_note(about),
+            NOTE: note,
         },
-        metrics=metrics | {name: tuned[name] for name in ("cv_mae_mm", "shell_mae_mm") if name in tuned},
-        curves=curves,
+        metrics=metrics | {name: study[name] for name in ("cv_mae_mm", "shell_mae_mm") if name in study},
+        curves=_trial_curves(pd.read_csv(files["trials"])) if "trials" in files else [],
         params={"target_space": fit["target_space"], **fit["params"]},
-        inputs=[_dataset_input(about)],
-        files=[files[name] for name in ("model", "predictions", "trials", "parameters", "fit") if name in files],
-        figures=[str(path) for path in figures],
+        inputs=[_dataset_input(description)],
+        files=[files[name] for name in ARTIFACTS if name in files],
+        figures=[str(path) for path in model_run.figures],
         started=campaign.started - place,
         seconds=metrics["fit_seconds"],
     )
@@ -140,40 +154,42 @@ def _trial_curves(trials: pd.DataFrame) -> list[tuple[str, int, float]]:
     ]
 
 
-def _dataset_input(about: Mapping[str, Any]) -> DatasetInput:
+def _dataset_input(description: Mapping[str, Any]) -> DatasetInput:
+    name, sha256 = description["dataset"], description["sha256"]
     dataset = Dataset(
-        name=about["dataset"],
-        digest=about["sha256"][:8],
+        name=name,
+        digest=sha256[:8],
         source_type="file",
-        source=json.dumps({"uri": about["dataset"], "sha256": about["sha256"]}),
-        profile=json.dumps({"rows": about["rows"], "n_commands": about["n_commands"], "n_markers": about["n_markers"]}),
+        source=json.dumps({"uri": name, "sha256": sha256}),
+        profile=json.dumps({key: description[key] for key in ("rows", "n_commands", "n_markers")}),
     )
     return DatasetInput(dataset, [InputTag("mlflow.data.context", "training and evaluation")])
 
 
-def _campaign_record(campaign: Campaign, about: Mapping[str, Any], figures: Sequence[Path]) -> Record:
+def _campaign_record(campaign: Campaign, description: Mapping[str, Any], figures: Sequence[Path]) -> Record:
+    note = f"Campaign **{campaign.name}** on **{description['title']}**: one child run per model and preset."
     tags = {
         "kind": "campaign",
-        **common_tags(campaign, about),
-        NOTE: f"Campaign **{campaign.name}** on **{about['title']}**: one child run per model and preset."
-        + _findings_note(about),
+        **common_tags(campaign, description),
+        NOTE: note + _findings_note(description),
     }
     return Record(
-        key=f"{campaign.name}/{about['dataset']}",
-        name=f"{about['dataset']} · {campaign.name}",
+        key=f"{campaign.name}/{description['dataset']}",
+        name=f"{description['dataset']} · {campaign.name}",
         content={"tags": tags, "figures": content_of(figures)},
         tags=tags,
-        inputs=[_dataset_input(about)],
+        inputs=[_dataset_input(description)],
         figures=[str(path) for path in figures],
         started=campaign.started,
     )
 
 
-def _findings_note(about: Mapping[str, Any]) -> str:
-    return "".join(f"\n\n**{found['severity']}**: {found['sentence']}" for found in about["findings"])
+def _findings_note(description: Mapping[str, Any]) -> str:
+    return "".join(f"\n\n**{finding['severity']}**: {finding['sentence']}" for finding in description["findings"])
 
 
 def _git_commit() -> str:
-    here = Path(__file__).parent
-    answer = subprocess.run(["git", "rev-parse", "HEAD"], cwd=here, capture_output=True, text=True, check=False)
+    """The commit of the checkout that softkin runs from."""
+    folder = Path(__file__).parent
+    answer = subprocess.run(["git", "rev-parse", "HEAD"], cwd=folder, capture_output=True, text=True, check=False)
     return answer.stdout.strip() if answer.returncode == 0 else "not a git checkout"

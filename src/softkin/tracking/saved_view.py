@@ -1,4 +1,4 @@
-"""A view of the runs for the UI's *Views* menu: its own columns are no metrics."""
+"""Save a view of the runs for the *Views* menu of MLflow's UI: its default columns show no metrics."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ COLUMNS = [
 
 
 def saved_view() -> str:
-    """The tag's value: the models alone, best on test first."""
+    """The value of the tag `TAG`: a view of the models alone, best on test first."""
     state = {
         "searchFilter": 'tags.kind = "model"',
         "orderByKey": COLUMNS[0],

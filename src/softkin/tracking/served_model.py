@@ -1,4 +1,7 @@
-"""What MLflow serves of a calibrated model. MLflow copies this file into the model, with the package beside it."""
+"""The model that MLflow serves: predictions and intervals of a calibrated model.
+
+MLflow copies this file into the registered model, with the package beside it.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +27,7 @@ class ServedModel(PythonModel):
         self.model = joblib.load(context.artifacts["calibrated_model"])
 
     def predict(self, context: Any, model_input: pd.DataFrame, params: dict[str, Any] | None = None) -> pd.DataFrame:  # noqa: ARG002
-        """Positions and intervals, as the class says."""
+        """Positions and intervals in mm, a row per command."""
         commands = np.asarray(model_input, dtype=np.float64)
         positions = self.model.predict(commands)
         intervals = self.model.intervals(commands, [(params or {})["confidence_level"]])[0]

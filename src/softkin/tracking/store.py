@@ -1,7 +1,7 @@
-"""The store, and how a run gets into it once.
+"""Open the MLflow store, and log each run to it once.
 
-Runs are found again by the tag `softkin.key`, and replaced only when `softkin.content`, a hash over what the run
-shows (timings apart), has changed. So logging twice changes nothing.
+The tag `softkin.key` identifies a run. It is replaced only when `softkin.content`, a hash over what the run shows
+(timings apart), has changed. So logging twice changes nothing.
 """
 
 from __future__ import annotations
@@ -24,7 +24,8 @@ from filelock import FileLock
 from mlflow import MlflowClient
 from mlflow.entities import DatasetInput, Metric, Param, Run
 
-from softkin.core.errors import SoftkinError
+from softkin.core.errors import StoreError
+from softkin.core.files import read_json
 from softkin.data.audit.findings import LEAK
 
 logger = logging.getLogger("softkin")
@@ -43,14 +44,14 @@ class Campaign:
     seed: int
     tracking_uri: str
     artifacts: str
-    #: When the runs are said to begin, milliseconds; the UI shows the newest first, so they are told apart by it.
+    #: Milliseconds. The UI sorts runs by their start, newest first.
     started: int = field(default_factory=lambda: int(time.time() * 1000))
 
 
 @dataclass(frozen=True, slots=True)
 class Record:
-    """What one run shows. `content` is what a change of makes it a new run; `texts` and `files` become artifacts,
-    `figures` artifacts in a folder of that name. `started` (milliseconds) and `seconds` place it in the UI's table.
+    """What one run shows. It is a new run when its `content` changes; `texts` and `files` become artifacts, `figures`
+    artifacts in a folder of that name. `started` (milliseconds) and `seconds` place it in the UI's table.
     """
 
     key: str
@@ -68,20 +69,25 @@ class Record:
     texts: Mapping[str, str] = field(default_factory=dict)
 
 
-def common_tags(campaign: Campaign, about: Mapping[str, Any]) -> dict[str, str]:
-    """The tags of every run; `about` is the dataset's description with the `findings` of its data card."""
+def read_description(description: str | Path, data_card: str | Path) -> dict[str, Any]:
+    """A dataset's description (JSON) with the `findings` of its data card (JSON)."""
+    return {**read_json(description), "findings": read_json(data_card)["findings"]}
+
+
+def common_tags(campaign: Campaign, description: Mapping[str, Any]) -> dict[str, str]:
+    """The tags of every run, from a dataset's `description` as `read_description` returns it."""
     return {
         "campaign": campaign.name,
-        "dataset": about["dataset"],
-        "data_sha256": about["sha256"],
-        "origin": about["origin"],
+        "dataset": description["dataset"],
+        "data_sha256": description["sha256"],
+        "origin": description["origin"],
         "seed": str(campaign.seed),
-        "leak": str(any(finding["severity"] == LEAK for finding in about["findings"])).lower(),
+        "leak": str(any(finding["severity"] == LEAK for finding in description["findings"])).lower(),
     }
 
 
 def create_store(tracking_uri: str) -> None:
-    """Create the store if there is none. One job does this before any other opens it: first use is a race."""
+    """Create the MLflow store if there is none. One job does this before any other opens it: first use is a race."""
     if tracking_uri.startswith(SQLITE):
         file = Path(tracking_uri.removeprefix(SQLITE)).resolve()
         with FileLock(f"{file}.lock"):
@@ -95,38 +101,38 @@ def create_store(tracking_uri: str) -> None:
 
 
 def client_of(tracking_uri: str) -> MlflowClient:
-    """A client of a store that exists.
+    """An MLflow client of a store that exists.
 
     Raises:
-        SoftkinError: the store is gone.
+        StoreError: the store is gone.
     """
     if tracking_uri.startswith(SQLITE) and not Path(tracking_uri.removeprefix(SQLITE)).exists():
-        raise SoftkinError(f"the MLflow store {tracking_uri} is gone; mend: `make store` makes it anew from results/")
+        raise StoreError("the MLflow store is gone", where=tracking_uri, fix="make it again from results/: make store")
     return MlflowClient(tracking_uri)
 
 
 def experiment_of(client: MlflowClient, dataset: str, artifacts: str) -> str:
     """Id of the dataset's experiment; created, or restored, when it is not there."""
-    found = client.get_experiment_by_name(dataset)
-    if found is not None and found.lifecycle_stage == "deleted":
-        client.restore_experiment(found.experiment_id)
-    if found is not None:
-        return str(found.experiment_id)
-    # A server keeps artifacts where it was told to.
-    is_ours = client.tracking_uri.startswith(SQLITE)
-    location = (Path(artifacts) / dataset).resolve().as_uri() if is_ours else None
+    experiment = client.get_experiment_by_name(dataset)
+    if experiment is not None and experiment.lifecycle_stage == "deleted":
+        client.restore_experiment(experiment.experiment_id)
+    if experiment is not None:
+        return str(experiment.experiment_id)
+    # A tracking server has its own place for artifacts.
+    is_file = client.tracking_uri.startswith(SQLITE)
+    location = (Path(artifacts) / dataset).resolve().as_uri() if is_file else None
     return str(client.create_experiment(dataset, artifact_location=location))
 
 
 def put(client: MlflowClient, experiment: str, record: Record) -> str:
-    """Id of the run that shows `record`: the one that is there, or a new one in place of it."""
+    """Log `record` unless a run of the same content is there; return the id of the run. Runs of other content go."""
     content = hashlib.sha256(json.dumps(record.content, sort_keys=True).encode()).hexdigest()
     old = find(client, experiment, **{KEY: record.key})
     current = [run for run in old if run.data.tags.get(CONTENT) == content and run.info.status == "FINISHED"]
     if current:
         delete(client, [run for run in old if run is not current[0]])
         run_id = str(current[0].info.run_id)
-        # Whose child it is says nothing of what it shows.
+        # The parent is no part of the content.
         if PARENT in record.tags and current[0].data.tags.get(PARENT) != record.tags[PARENT]:
             client.set_tag(run_id, PARENT, record.tags[PARENT])
         return run_id
@@ -147,7 +153,7 @@ def put(client: MlflowClient, experiment: str, record: Record) -> str:
         client.log_artifact(run_id, file, "figures")
     for name, text in record.texts.items():
         client.log_text(run_id, text, name)
-    # The content tag comes last: a run cut off before it is not taken for whole.
+    # The content tag comes last: a run that was cut off has none, and is logged again.
     client.set_tag(run_id, CONTENT, content)
     client.set_terminated(run_id, end_time=record.started + int(1000 * record.seconds))
     delete(client, old)

@@ -1,4 +1,4 @@
-"""Fit one model on `train` of a table; write the fitted model and a record of what it took."""
+"""Fit a point model on `train` of a table; write the fitted model and a record of the fit."""
 
 from __future__ import annotations
 
@@ -26,9 +26,16 @@ def fit(
     record: str | Path,
     max_rows: int | None = None,
 ) -> None:
-    """Fit on `train` of `table`; write the fitted `model` (joblib) and a `record` (JSON) of what it took.
+    """Fit on `train` of `table`; write the fitted `model` and a `record` of its settings and times.
 
-    `max_rows` bounds the rows of a model that cannot take more: the rest is left out at random, and the log says so.
+    Parameters:
+        table: path of the tidy table (Parquet).
+        spec: the model.
+        settings: its parameters, target space, seed and threads.
+        model: path of the fitted model (joblib).
+        record: path of the record (JSON).
+        max_rows: rows at most, for a model that cannot take more: the others are left out at random, and the log says
+            so.
     """
     samples = some_rows(read_subset(table, TRAIN), max_rows, settings.seed)
     estimator = kinematic_model(spec, settings)

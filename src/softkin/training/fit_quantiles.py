@@ -1,4 +1,4 @@
-"""Fit quantile models on `train`, predict the quantiles of every other subset."""
+"""Fit quantile regressors on `train`, predict the quantiles of every other subset."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def quantiles_of(confidence_levels: Sequence[float]) -> list[float]:
 
 
 class QuantileModel:
-    """Quantile models of all coordinates; a coordinate that never varies on `train` has its constant as quantiles."""
+    """One quantile regressor per coordinate; a coordinate that never varies has its constant as quantiles."""
 
     def __init__(
         self, spec: QuantileSpec, params: Params, confidence_levels: Sequence[float], seed: int, threads: int
@@ -40,7 +40,7 @@ class QuantileModel:
         self.seed, self.threads = seed, threads
 
     def fit(self, samples: Samples) -> QuantileModel:
-        """Fit one model per coordinate that varies, in standardised space."""
+        """Fit one regressor per coordinate that varies, in standardised space."""
         self.means, self.scales = samples.positions.mean(axis=0), samples.positions.std(axis=0)
         self.constants = samples.positions[0].copy()
         self.models = {}
@@ -53,7 +53,7 @@ class QuantileModel:
         return self
 
     def predict(self, commands: Array) -> Array:
-        """Predicted quantiles (n_levels, n_rows, n_coordinates, 2) in mm, as the models give them: they may cross."""
+        """Predicted quantiles (n_levels, n_rows, n_coordinates, 2) in mm, which may cross."""
         result = np.empty((len(self.levels), len(commands), len(self.constants), 2))
         result[:] = self.constants[:, None]
         for coordinate, model in self.models.items():
@@ -70,8 +70,14 @@ def fit_quantiles(
     quantiles: str | Path,
     record: str | Path,
 ) -> None:
-    """Fit `regressor` on `train`; write the `model` (joblib), the `quantiles` of the other subsets (Parquet) and a
-    `record` (JSON).
+    """Fit `regressor` on `train` of `table`; write it, the quantiles that it predicts and a record of its times.
+
+    Parameters:
+        table: path of the tidy table (Parquet).
+        regressor: the unfitted quantile regressors of all coordinates.
+        model: path of the fitted regressors (joblib).
+        quantiles: path of the quantiles of validation, test and extrapolation in mm (Parquet, see `bounds_frame`).
+        record: path of the record (JSON).
     """
     with stopwatch() as watch, threadpool_limits(regressor.threads):
         regressor.fit(read_subset(table, TRAIN))

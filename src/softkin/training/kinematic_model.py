@@ -1,4 +1,4 @@
-"""The regressor commands -> positions that every stage fits, and how it is fitted."""
+"""Regressor from commands to positions, built and fitted the same way in every stage."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ logger = logging.getLogger("softkin")
 class FitSettings:
     """How a model is fitted.
 
-    `params` are the model's own; `skip_constant` leaves coordinates that never move out of the fit; `base` is what the
-    dataset's entry declares of the robot's base, for a target space that needs to know it.
+    `params` are the model's own; `skip_constant` leaves coordinates that never vary out of the fit; `base` is the
+    robot's base as the dataset's entry declares it, for a target space that needs it.
     """
 
     params: Params
@@ -39,7 +39,7 @@ class FitSettings:
 
 
 def recorded_settings(record: Mapping[str, Any], seed: int, threads: int) -> FitSettings:
-    """The settings of a fit `record`: the same parameters, target space and base."""
+    """The settings of a fit `record` (as `fit` writes it): its parameters, target space and base."""
     return FitSettings(
         params=record["params"],
         skip_constant=record["skip_constant"],
@@ -51,7 +51,7 @@ def recorded_settings(record: Mapping[str, Any], seed: int, threads: int) -> Fit
 
 
 def kinematic_model(spec: ModelSpec, settings: FitSettings) -> Any:
-    """Unfitted regressor commands -> positions in mm; both are standardised inside, by what it is fitted on."""
+    """Unfitted regressor commands -> positions in mm, which standardises both by the rows that it is fitted on."""
     return KinematicRegressor(
         make_pipeline(StandardScaler(), spec.build(settings.params, settings.seed, settings.threads)),
         TARGET_SPACES[settings.target_space].transformer(settings.skip_constant, settings.base),
@@ -68,7 +68,7 @@ def fitted_model(spec: ModelSpec, settings: FitSettings, samples: Samples) -> An
 def fit_quietly(estimator: Any, samples: Samples, threads: int) -> int:
     """Fit in place on at most `threads` threads; return how many solvers stopped at their iteration bound.
 
-    The bounds are deliberate (no fit may run away), so their warnings are counted, not printed.
+    The bounds are deliberate (they limit the time of a fit), so their warnings are counted, not printed.
     """
     with warnings.catch_warnings(record=True) as caught, threadpool_limits(threads):
         warnings.simplefilter("always")

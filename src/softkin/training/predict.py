@@ -1,4 +1,4 @@
-"""Predict every subset with a fitted model."""
+"""Predict the positions of every subset, and the spread, with a fitted model."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from softkin.core.samples import SUBSETS, TEST, TRAIN, Array, Samples, coordinat
 from softkin.data.table import read_subset
 from softkin.models.spec import ModelSpec
 
-#: What the columns of a model's spread start with.
+#: Prefixes of the columns of a model's spread: of a predictive standard deviation, and of any other.
 STANDARD_DEVIATION, SPREAD = "std_", "spread_"
 
 
 def spread_of(spec: ModelSpec, estimator: Any, train: Samples, commands: Array) -> Array:
-    """What a fitted kinematic model says itself of its uncertainty at `commands`: (n_rows, n_coordinates) in mm."""
+    """Spread (n_rows, n_coordinates) in mm of a fitted kinematic model at `commands`."""
     assert spec.spread is not None
     scaler, regressor = estimator.regressor_[0], estimator.regressor_[-1]
-    known = Samples(scaler.transform(train.commands), estimator.transformer_.transform(train.positions))
-    spread = spec.spread(regressor, known, scaler.transform(commands))
+    standardised = Samples(scaler.transform(train.commands), estimator.transformer_.transform(train.positions))
+    spread = spec.spread(regressor, standardised, scaler.transform(commands))
     return np.asarray(estimator.transformer_.inverse_spread(estimator.targets(commands), spread))
 
 
@@ -40,9 +40,16 @@ def predict(
     predictions: str | Path,
     record: str | Path,
 ) -> None:
-    """Write the `predictions` (Parquet: subset, m1_x.. in mm, rows as in `table`) of every subset, and how long
-    `test` takes a row (median of five). A model with a spread gets columns for it too: std_m1_x.. (mm) where
-    it is a predictive standard deviation, else spread_m1_x...
+    """Write the predictions of every subset, and how long one row of `test` takes (median of five repetitions).
+
+    Parameters:
+        table: path of the tidy table (Parquet).
+        spec: the model.
+        model: path of the fitted model (joblib).
+        threads: threads at most.
+        predictions: path of the predictions (Parquet: subset, m1_x.. in mm, rows as in `table`). A model with a spread
+            has columns for it too, in mm: std_m1_x.. where it is a predictive standard deviation, else spread_m1_x...
+        record: path of the time of a row (JSON).
     """
     estimator = joblib.load(model)
     train = read_subset(table, TRAIN)

@@ -1,4 +1,4 @@
-"""Fit a model again and again on parts of `train`: what CV+ and jackknife+-after-bootstrap start from."""
+"""Refit models on folds and bootstrap samples of `train`, for CV+ and jackknife+-after-bootstrap."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from softkin.core.errors import SoftkinError
+from softkin.core.errors import ConfigError
 from softkin.core.files import read_json
 from softkin.core.folds import grouped_folds
 from softkin.core.job import stopwatch
@@ -31,8 +31,8 @@ FOLD_OF_ROW, RESAMPLE_ROWS = "fold_of_row", "resample_rows"
 
 @dataclass(frozen=True, slots=True)
 class RefittingSettings:
-    """`n_folds` folds grouped by distinct command, `n_resamples` bootstrap samples; datasets of more than
-    `max_train_rows` rows of train are left out, by name, in the log.
+    """`n_folds` folds grouped by distinct command, `n_resamples` bootstrap samples; a dataset of more than
+    `max_train_rows` rows of `train` is left out, and the log names it.
     """
 
     n_folds: int
@@ -51,12 +51,20 @@ def refit(
     threads: int,
     refits: str | Path,
 ) -> None:
-    """Write `refits` (`RunArchive`), in mm, with rows of train, test and extrapolation, in this order.
+    """Write what the refits of each run predict of train, test and extrapolation, rows in this order.
 
-    Of each run `folds` (n_folds, n_rows, n_coordinates) and `resamples` (n_resamples, n_rows, n_coordinates), and
-    shared by all runs `fold_of_row` (n_train,), `resample_rows` (n_resamples, n_train) and `fit_cpu_seconds`.
+    The archive holds, of each run, `folds` (n_folds, n_rows, n_coordinates) and `resamples` (n_resamples, n_rows,
+    n_coordinates) in mm, and shared by all runs `fold_of_row` (n_train,), `resample_rows` (n_resamples, n_train) and
+    `fit_cpu_seconds`.
 
-    `records` are the runs' fit records: each is refitted with the parameters it was fitted with.
+    Parameters:
+        table: path of the tidy table (Parquet).
+        dataset: its name, for the log.
+        specs: the model of each run.
+        records: path of the fit record (JSON) of each run: a refit has the parameters of the fit.
+        settings: folds, bootstrap samples and seed.
+        threads: threads of a fit at most.
+        refits: path of the archive (`RunArchive`).
     """
     train = read_subset(table, TRAIN)
     everywhere = np.concatenate([read_subset(table, subset).commands for subset in (TRAIN, TEST, EXTRAPOLATION)])
@@ -93,10 +101,10 @@ def refit(
 
 
 def drawn_resamples(n_rows: int, settings: RefittingSettings) -> list[NDArray[np.intp]]:
-    """Bootstrap samples (row numbers) such that each row is left out of at least one: else nothing could judge it.
+    """Bootstrap samples (row numbers) such that each row is left out of at least one, whose refit then predicts it.
 
     Raises:
-        SoftkinError: too few samples for so many rows.
+        ConfigError: too few samples for so many rows.
     """
     rng = np.random.default_rng(settings.seed)
     for _ in range(MAX_DRAWS):
@@ -105,7 +113,8 @@ def drawn_resamples(n_rows: int, settings: RefittingSettings) -> list[NDArray[np
         np.put_along_axis(kept, drawn, True, axis=1)
         if not kept.all(axis=0).any():
             return list(drawn)
-    raise SoftkinError(
-        f"of {n_rows} rows some stand in all {settings.n_resamples} bootstrap samples, however they are drawn; "
-        "mend: raise refitting.n_resamples"
+    raise ConfigError(
+        f"some of {n_rows} rows stand in all {settings.n_resamples} bootstrap samples, in each of {MAX_DRAWS} draws",
+        where="refitting.n_resamples",
+        fix="raise refitting.n_resamples",
     )

@@ -1,4 +1,4 @@
-"""Fit a few models again on inner cores of `train`: what the intervals for commands outside it start from."""
+"""Refit a few models on inner cores of `train`, for the intervals in extrapolation."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ from softkin.training.kinematic_model import fitted_model, recorded_settings, so
 
 logger = logging.getLogger("softkin")
 
-#: A core of a smaller share of `train` says little of a model of all of it.
+#: Share of `train` that the matched core holds at least: a model of fewer rows is too unlike a model of all.
 LEAST_CORE_SHARE = 0.2
-#: Two cores whose shares differ by less say the same.
+#: The matched core is left out where its share differs from a configured one by no more than this.
 ALIKE = 0.03
 #: Shared arrays of the archive: the norm of commands.
 CENTRE, SCALE = "centre", "scale"
@@ -33,8 +33,8 @@ CENTRE, SCALE = "centre", "scale"
 
 @dataclass(frozen=True, slots=True)
 class ShellSettings:
-    """`core_shares` of the rows of `train`; of more than `max_rows` rows of a core as many are fitted on, drawn with
-    the seed; `standardised_norm` says which norm sets the dataset's extrapolation apart; each fit takes `threads`.
+    """Cores hold `core_shares` of the rows of `train`; a fit takes `max_rows` of a core at most, drawn with the `seed`,
+    and `threads` threads at most; `standardised_norm` says that the command norm is that of standardised commands.
     """
 
     core_shares: Sequence[float]
@@ -64,15 +64,21 @@ def refit_shells(
     settings: ShellSettings,
     shells: str | Path,
 ) -> None:
-    """Write `shells` (`RunArchive`), cores counted from the smallest, 0.
+    """Write what the refit of each run on each core predicts of the shell around the core.
 
-    Of each run and core (n_shell, n_coordinates), what the model of the core predicts of its shell, in mm. Shared by
-    all runs: `core_{i}` and `shell_{i}`, rows of train; `centre` and `scale` (n_commands,) of the norm of commands;
-    `fit_cpu_seconds`.
+    The archive holds, of each run and core (n_shell, n_coordinates) in mm, cores counted from the smallest, 0. Shared
+    by all runs: `core_{i}` and `shell_{i}`, rows of train; `centre` and `scale` (n_commands,) of the command norm;
+    `fit_cpu_seconds`. Of test and extrapolation commands are read and no positions. Where all commands have the same
+    norm there is no shell, and the log says so.
 
-    One more core, unless another is nearly that, is as far from the edge of `train`, relatively, as that is from the
-    farthest command of test and extrapolation, whose positions are not read. `records` are the runs' fit records,
-    `max_fit_rows` is by model. Where all commands lie equally far out there is no shell, and the log says so.
+    Parameters:
+        table: path of the tidy table (Parquet).
+        dataset: its name, for the log.
+        specs: the model of each run.
+        records: path of the fit record (JSON) of each run: a refit has the parameters of the fit.
+        max_fit_rows: rows of a fit at most, by model; a model that is missing takes any number.
+        settings: cores, seed and threads.
+        shells: path of the archive (`RunArchive`).
     """
     train = read_subset(table, TRAIN)
     new = np.concatenate([read_subset(table, subset).commands for subset in (TEST, EXTRAPOLATION)])
@@ -99,14 +105,16 @@ def refit_shells(
 
 
 def cores_and_shells(norms: Array, farthest: float, core_shares: Sequence[float]) -> Shells:
-    """Rows of each core of `train` and of its shell; `farthest` is the norm of the farthest new command.
+    """Rows of each core of `train` and of its shell, by the norms (n_rows,) of its commands.
 
-    An empty list where the norms (n_rows,) of `train` leave no shell; no core of commands that are all 0.
+    To the cores of `core_shares` comes the matched one, unless another is nearly that: the largest norm of `train` is
+    to its norm as `farthest`, the norm of the farthest new command, is to the largest of `train`. The list is empty
+    where the norms leave no shell; a core of commands that are all 0 is left out.
     """
-    reach = float(norms.max())
-    matched = float(np.mean(norms <= reach * reach / farthest)) if farthest > reach else 0.0
+    largest = float(norms.max())
+    matched = float(np.mean(norms <= largest * largest / farthest)) if farthest > largest else 0.0
     is_new = matched >= LEAST_CORE_SHARE and min(abs(matched - share) for share in core_shares) > ALIKE
     shares = [*core_shares, *([matched] if is_new else [])]
-    if np.quantile(norms, min(shares), method="lower") == reach:
+    if np.quantile(norms, min(shares), method="lower") == largest:
         return []
     return [(core, shell) for core, shell in outer_shells(norms, shares) if norms[core].max() > 0]

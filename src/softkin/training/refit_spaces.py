@@ -1,4 +1,4 @@
-"""Fit every model in the target space that its search has not chosen: what a target space is worth, model by model."""
+"""Fit every model in the target space that its study has not chosen, to compare target spaces model by model."""
 
 from __future__ import annotations
 
@@ -32,10 +32,19 @@ def refit_spaces(
     threads: int,
     predictions: str | Path,
 ) -> None:
-    """Write `predictions` (Parquet: model, target_space, subset, m1_x.. in mm) of test and extrapolation.
+    """Write what each model, fitted in the other target space, predicts of test and extrapolation.
 
-    `parameters` is model -> file of what its study by outer shells found; `base` is what the dataset's entry declares
-    of the base. Of test and extrapolation commands are read, and no positions.
+    Of test and extrapolation commands are read and no positions.
+
+    Parameters:
+        table: path of the tidy table (Parquet).
+        specs: the models by name.
+        parameters: path of the best parameters (JSON) of the preset `outer`, by model.
+        base: the robot's base as the dataset's entry declares it.
+        max_fit_rows: rows of a fit at most, by model; a model that is missing takes any number.
+        seed: seed of the fits, and of the draw of rows.
+        threads: threads of a fit at most.
+        predictions: path of the predictions (Parquet: model, target_space, subset, m1_x.. in mm).
     """
     train = read_subset(table, TRAIN)
     commands = {subset: read_subset(table, subset).commands for subset in SPACE_SUBSETS}

@@ -1,4 +1,4 @@
-"""Which run each dataset gets, by scores on `train` alone: for interpolation, for extrapolation, or for both."""
+"""Choose the run that is deployed by scores on `train`: for interpolation, for extrapolation, or for both."""
 
 from __future__ import annotations
 
@@ -15,21 +15,22 @@ from softkin.models.spec import PAPERS_RUN
 
 INTERPOLATION, BOTH = "interpolation", "both"
 CV, SHELL = "cv_mae_mm", "shell_mae_mm"
-#: Below this (mm) nobody cares which of two errors is smaller, and a logarithm would.
+#: Scores (mm) below this count as this in the geometric mean, whose logarithm has no bound at 0.
 NEGLIGIBLE_MM = 1e-9
 
 
 def searched_runs(parameters: Mapping[tuple[str, str, str], str | Path]) -> pd.DataFrame:
-    """Columns dataset, model, preset, target_space, cv_mae_mm, shell_mae_mm (NaN where there is no such score), a row
-    per file of best parameters; `parameters` is (dataset, model, preset) -> file.
+    """Scores of the runs behind the files of best `parameters`, (dataset, model, preset) -> file, a row each.
+
+    Columns: dataset, model, preset, target_space, cv_mae_mm, shell_mae_mm (NaN where there is no such score).
     """
     rows = []
     for (dataset, model, preset), path in parameters.items():
-        found = read_json(path)
+        best = read_json(path)
         # A score that is infinite is written as null, one that was not asked for is not written.
-        scores = {name: found.get(name, np.nan) for name in (CV, SHELL)}
+        scores = {name: best.get(name, np.nan) for name in (CV, SHELL)}
         scores = {name: np.inf if score is None else score for name, score in scores.items()}
-        key = {"dataset": dataset, "model": model, "preset": preset, "target_space": found["target_space"]}
+        key = {"dataset": dataset, "model": model, "preset": preset, "target_space": best["target_space"]}
         rows.append(key | scores)
     return pd.DataFrame(rows)
 
@@ -42,20 +43,18 @@ def on_front(runs: pd.DataFrame) -> pd.Series:
     return pd.Series(np.logical_not(beaten.any(axis=1)), index=runs.index)
 
 
-#: What a run that is not on the Pareto front loses a tie by.
+#: Factor on the geometric mean of a run that is not on the Pareto front, so that it loses a tie.
 OFF_FRONT = 1 + 1e-12
 
 
 def _both(runs: pd.DataFrame) -> pd.Series:
-    """Geometric mean of the two scores (mm), so that a factor counts the same in either: its lowest is on the Pareto
-    front.
-    """
+    """Geometric mean of the two scores (mm), so that a factor counts the same in either; the lowest is on the front."""
     logarithms = np.log(runs[[CV, SHELL]].clip(lower=NEGLIGIBLE_MM)).mean(axis=1, skipna=False)
     means = np.exp(logarithms)
     return means.where(on_front(runs), OFF_FRONT * means)
 
 
-#: What a run is chosen by: the lowest wins.
+#: Score (n_runs,) that a run is chosen by, by objective: the lowest wins.
 OBJECTIVES: dict[str, Callable[[pd.DataFrame], pd.Series]] = {
     INTERPOLATION: lambda runs: runs[CV],
     EXTRAPOLATION: lambda runs: runs[SHELL],
@@ -64,10 +63,10 @@ OBJECTIVES: dict[str, Callable[[pd.DataFrame], pd.Series]] = {
 
 
 def selection(runs: pd.DataFrame, objective: str) -> pd.DataFrame:
-    """One row per dataset and objective that there are scores for: the run of lowest score, and the runner-up, the next
-    model; `deployed` marks those of the configured `objective`.
+    """The run of lowest score, and the runner-up among other models: one row per dataset and objective that has scores;
+    `deployed` marks those of the configured `objective`.
 
-    `runs` is as `searched_runs` gives it. Ties go to the model that comes first in the registry.
+    `runs` is as `searched_runs` returns it. Ties go to the run that comes first.
     """
     rows = []
     for dataset, pool in runs.groupby("dataset", sort=False):
@@ -91,12 +90,11 @@ def selection(runs: pd.DataFrame, objective: str) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def foretold(runs: pd.DataFrame, point: pd.DataFrame) -> pd.DataFrame:
-    """The searched `runs` with their mean absolute errors on test and extrapolation, and for each dataset how well
-    either score foretold the order of the runs on extrapolation: Spearman's rank correlation, the same in each row.
-    `on_front` says which runs no other of the dataset beats in both scores.
+def runs_with_errors(runs: pd.DataFrame, point: pd.DataFrame) -> pd.DataFrame:
+    """The searched `runs` with their mean absolute errors on test and extrapolation, of the `point` metrics.
 
-    `point` are the point metrics. A dataset with one run has no correlation.
+    Spearman's rank correlation of either score with the error on extrapolation is the same in each row of a dataset,
+    and NaN where it has one run. `on_front` says which runs no other of the dataset beats in both scores.
     """
     key = ["dataset", "model", "preset"]
     errors = point.pivot_table(index=key, columns="subset", values="mae_mm")
@@ -106,11 +104,11 @@ def foretold(runs: pd.DataFrame, point: pd.DataFrame) -> pd.DataFrame:
     for subset in (TEST, EXTRAPOLATION):
         result[f"{subset}_mae_mm"] = errors[subset].reindex(pd.MultiIndex.from_frame(runs[key])).to_numpy()
     for name, score in (("cv", CV), ("shell", SHELL)):
-        of = {
+        correlations = {
             dataset: pool[score].rank().corr(pool[f"{EXTRAPOLATION}_mae_mm"].rank())
             for dataset, pool in result.groupby("dataset")
         }
-        result[f"{name}_rank_correlation"] = result["dataset"].map(of)
+        result[f"{name}_rank_correlation"] = result["dataset"].map(correlations)
     return result
 
 
@@ -120,7 +118,7 @@ def deployed(chosen: pd.DataFrame) -> pd.DataFrame:
 
 
 def run_of_choice(parameters: Mapping[Run, str | Path], objective: str) -> Run:
-    """The run that is deployed; `parameters` is run -> file of what its study found."""
+    """The run that is deployed; `parameters` is run -> file of its best parameters."""
     runs = searched_runs({("", *run): file for run, file in parameters.items()})
     best = deployed(selection(runs, objective)).iloc[0]
     return Run(best["model"], best["preset"])
@@ -129,9 +127,10 @@ def run_of_choice(parameters: Mapping[Run, str | Path], objective: str) -> Run:
 def shell_runs(
     runs: Collection[Run], parameters: Mapping[Run, str | Path], objective: str, robust_models: Collection[str]
 ) -> list[Run]:
-    """The runs, of all `runs`, that get intervals for extrapolation: refitting all would take too long. The paper's,
-    the chosen one, the `outer` ones of robust models; `parameters` as for `run_of_choice`, empty where nothing was
-    searched.
+    """Those of `runs` that get intervals for extrapolation: the paper's, the chosen one, the `outer` ones of robust
+    models. Refitting all would take too long.
+
+    `parameters` is as for `run_of_choice`, empty where nothing was searched.
     """
     chosen = [run_of_choice(parameters, objective)] if parameters else []
     robust = [Run(model, OUTER) for model in robust_models]

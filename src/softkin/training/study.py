@@ -1,4 +1,4 @@
-"""A resumable Optuna study: the parameters whose error, part by part of `train`, is lowest on average."""
+"""Resumable Optuna study of the parameters whose mean error over parts of `train` is lowest."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ from softkin.data.table import content_hash
 
 logger = logging.getLogger("softkin")
 
-#: Whatever can change a trial's outcome besides our own code.
+#: Libraries whose version can change the score of a trial.
 DECIDING_PACKAGES = ("numpy", "scipy", "scikit-learn", "xgboost", "optuna")
 ENDED = (TrialState.COMPLETE, TrialState.PRUNED)
 #: From the sixth on, a trial goes on only as long as its running mean is among this share (percent) of the complete
-#: ones: parts are the same for all, so the first tells nearly all. `benchmarks/pruning.py` measures what that costs.
+#: ones: all trials have the same parts, so the first part nearly decides. `benchmarks/pruning.py` measures the cost.
 STARTUP_TRIALS, KEPT_PERCENT = 5, 10.0
 
 
@@ -46,8 +46,8 @@ class TuningSettings:
 
 @dataclass(frozen=True, slots=True)
 class TuningResult:
-    """Best parameters, their score (mm), the table of all trials, the study's fingerprint; parameters and scores of all
-    complete trials, the best first.
+    """Best parameters `params`, their score (mm), the table of all `trials`, the study's fingerprint; parameters and
+    scores of all `complete` trials, the best first.
     """
 
     params: Params
@@ -64,11 +64,11 @@ def bounded_rows(samples: Samples, max_rows: int, seed: int) -> Samples:
 
 
 def fingerprint(name: str, samples: Samples, settings: TuningSettings, code: Sequence[str | Path]) -> str:
-    """SHA-256 (hex) of all that decides a trial: the rows of `train`, the settings but for the number of trials,
-    our source files `code`, the library versions.
+    """SHA-256 (hex) of all that decides a trial: the search's `name`, the rows of `train`, the settings but for the
+    number of trials, the source files `code`, the library versions.
     """
     decides = {
-        "model": name,
+        "search": name,
         "data": content_hash(samples),
         "settings": {key: value for key, value in asdict(settings).items() if key != "n_trials"},
         "code": sha256_of(sorted(map(str, code))),
@@ -79,10 +79,10 @@ def fingerprint(name: str, samples: Samples, settings: TuningSettings, code: Seq
 
 @dataclass(frozen=True, slots=True)
 class Search:
-    """What a study looks through.
+    """What a study searches.
 
-    `space(trial)` draws parameters, after those of `first_trials`; `errors_of(params)` gives the error (mm) on each of
-    `n_parts` parts of `train`; the lowest mean is looked for. `name` holds all else that decides a trial.
+    `space(trial)` draws parameters, after those of `first_trials`; `errors_of(params)` yields the error (mm) on each of
+    `n_parts` parts of `train`, whose mean is minimised. `name` holds all else that decides a trial.
     """
 
     name: str
@@ -101,13 +101,13 @@ class StudyFile:
 
 
 def run_study(samples: Samples, *, search: Search, settings: TuningSettings, file: StudyFile) -> TuningResult:
-    """Bring the study in `file` to `settings.n_trials` ended trials and return what it found.
+    """Bring the study in `file` to `settings.n_trials` ended trials and return the best parameters and all trials.
 
-    A trial is cut short as soon as it is no match for the others, or an error is not finite.
+    A trial is pruned as soon as its running mean is too large beside the others', or an error is not finite.
 
-    Resumable to the bit: a killed run leaves ended trials in the file; the next run marks the trial it was in as
-    failed and draws it again from a sampler seeded by the trial's place, so that it ends with the same trials as an
-    undisturbed run. A file of another fingerprint is replaced.
+    A study is resumed to the bit: a killed run leaves its ended trials in the file; the next run marks the unfinished
+    trial as failed and draws it again from a sampler seeded by the number of ended trials, and so ends with the same
+    trials as an undisturbed run. A file of another fingerprint is replaced.
 
     Raises:
         DataError: no trial could be scored.
@@ -134,11 +134,11 @@ def run_study(samples: Samples, *, search: Search, settings: TuningSettings, fil
             study.optimize(lambda trial: _score(trial, search), n_trials=1)
             ended += 1
             _report_progress(study, ended, settings.n_trials)
-        return _result(study.get_trials(states=ENDED)[: settings.n_trials], mark, search.name)
+        return _result(study.get_trials(states=ENDED)[: settings.n_trials], mark, file.path)
 
 
 def _score(trial: Trial, search: Search) -> float:
-    """Mean error (mm) of the parameters that `trial` draws; the trial keeps what it took."""
+    """Mean error (mm) of the parameters that `trial` draws; parameters and times are stored with the trial."""
     start, cpu = time.perf_counter(), time.process_time()
     params = search.space(trial)
     trial.set_user_attr("params", params)
@@ -159,7 +159,7 @@ def _score(trial: Trial, search: Search) -> float:
 
 
 def _open_study(path: Path, mark: str) -> optuna.Study:
-    """The study of this fingerprint; a new one, put in place whole, when there is none."""
+    """The study of the fingerprint `mark`; where there is none, a new one replaces the file in one step."""
     name = mark[:16]
     pruner = optuna.pruners.PercentilePruner(KEPT_PERCENT, n_startup_trials=STARTUP_TRIALS)
     if not path.exists() or name not in optuna.get_all_study_names(f"sqlite:///{path}"):
@@ -179,31 +179,31 @@ def _report_progress(study: optuna.Study, ended: int, total: int) -> None:
         logger.info("%d of %d trials, best %.4g mm", ended, total, best)
 
 
-def _result(trials: list[FrozenTrial], mark: str, model: str) -> TuningResult:
+def _result(trials: list[FrozenTrial], mark: str, path: str | Path) -> TuningResult:
     complete = [trial for trial in trials if trial.state == TrialState.COMPLETE and trial.value is not None]
     if not complete:
         raise DataError(
             f"none of {len(trials)} trials could be scored",
-            where=model,
-            fix="look at the log for why trials failed, and at the positions of `train`",
+            where=path,
+            fix="read in the job's log why trials failed, and check the positions of `train`",
         )
     complete.sort(key=lambda trial: (trial.value, trial.number))
-    found = [(trial.user_attrs["params"], float(trial.value or 0.0)) for trial in complete]
+    scored = [(trial.user_attrs["params"], float(trial.value or 0.0)) for trial in complete]
     table = pd.DataFrame([_row(place, trial) for place, trial in enumerate(trials)])
-    return TuningResult(*found[0], table, mark, found)
+    return TuningResult(*scored[0], table, mark, scored)
 
 
 def _row(place: int, trial: FrozenTrial) -> dict[str, Any]:
     shown = {f"param_{key}": value for key, value in sorted(trial.params.items())}
     attributes = {key: trial.user_attrs.get(key) for key in ("n_parts_scored", "seconds", "cpu_seconds")}
-    # Optuna gives a pruned trial its last running mean as value; only a whole cross-validation is a score.
-    whole = trial.state == TrialState.COMPLETE
-    scores = {"score_mm": trial.value if whole else None, "first_part_mm": trial.intermediate_values.get(0)}
+    # Optuna gives a pruned trial its last running mean as value; only a mean over all parts is a score.
+    is_complete = trial.state == TrialState.COMPLETE
+    scores = {"score_mm": trial.value if is_complete else None, "first_part_mm": trial.intermediate_values.get(0)}
     return {"trial": place, "state": trial.state.name} | scores | attributes | shown
 
 
 def record(result: TuningResult) -> dict[str, Any]:
-    """What a file of best parameters says of its study."""
+    """What a file of best parameters records of its study."""
     return {
         "n_trials": len(result.trials),
         "n_pruned": int((result.trials["state"] == TrialState.PRUNED.name).sum()),

@@ -1,8 +1,8 @@
-"""Tune one model on one dataset, for commands like those of `train` and for commands beyond them.
+"""Tune a point model on `train`: a study of each searched preset, over its parameters and the target space.
 
-Both studies see `train` alone, and search over the target space too. The preset `tuned` is scored by cross-validation
-grouped by distinct command; the preset `outer` by outer shells: fitted on the inner core of `train` by command norm,
-scored on the shell around it, for cores of several sizes.
+The preset `tuned`, for commands in-domain, is scored by cross-validation grouped by distinct command; the preset
+`outer`, for extrapolation, by outer shells: fitted on the inner core of `train` by command norm, scored on the shell
+around it, for cores of several sizes.
 """
 
 from __future__ import annotations
@@ -32,15 +32,15 @@ if TYPE_CHECKING:
 
 logger = logging.getLogger("softkin")
 
-#: What a preset's score is called.
+#: Name of a preset's score.
 SCORES = {TUNED: "cv_mae_mm", OUTER: "shell_mae_mm"}
 SPACE = "target_space"
 
 
 @dataclass(frozen=True, slots=True)
 class Robot:
-    """What of a dataset's entry a study must know: what it declares of the base, and whether commands are standardised
-    before their norm is taken.
+    """What a study needs of a dataset's entry: the `base` that it declares, and whether its command norm is that of
+    standardised commands.
     """
 
     base: Mapping[str, Any] | None
@@ -49,8 +49,8 @@ class Robot:
 
 @dataclass(frozen=True, slots=True)
 class SearchSettings:
-    """`n_trials` by preset; the presets by whose `scores` every find is judged; a trial sees `max_markers` moving
-    markers; cores hold these shares of the rows of `train`; the target spaces to choose from.
+    """`n_trials` by preset; the presets whose `scores` best parameters get; moving markers of a trial at most;
+    the shares of the rows of `train` that cores hold; the target spaces to choose from.
     """
 
     n_trials: Mapping[str, int]
@@ -63,9 +63,18 @@ class SearchSettings:
 def part_errors(
     spec: ModelSpec, params: Params, samples: Samples, parts: Folds, robot: Robot, seed: int, threads: int
 ) -> Iterator[float]:
-    """Mean absolute error (mm) over moving coordinates, part by part; everything is fitted inside the part.
+    """Mean absolute error (mm) over moving coordinates, part by part.
 
-    `params` says the target space too. Where no arc leads to a marker the error is infinite.
+    Where the target space does not hold a part (no arc leads to a marker) the error is infinite, and the last.
+
+    Parameters:
+        spec: the model.
+        params: its parameters, and the target space.
+        samples: rows of `train`.
+        parts: of each part the rows that are fitted on, standardisation included, and those that are scored.
+        robot: declares the base.
+        seed: seed of the fits.
+        threads: threads of a fit at most.
     """
     own_params = dict(params)
     space = own_params.pop(SPACE)
@@ -76,7 +85,7 @@ def part_errors(
             fitted = Samples(samples.commands[fitted_rows], samples.positions[fitted_rows])
             estimator = fitted_model(spec, settings, fitted)
         except SoftkinError as error:
-            logger.info("%s is left out here: %s", space, error)
+            logger.info("target space '%s' cannot be fitted on a part: %s", space, error)
             yield float("inf")
             return
         predicted = estimator.predict(samples.commands[scored_rows])
@@ -84,24 +93,25 @@ def part_errors(
 
 
 def some_markers(samples: Samples, max_markers: int) -> Samples:
-    """Samples with the markers that never move and at most `max_markers` of the others, evenly spread up to the last:
-    those of one robot resemble each other, and some models cost a fit per coordinate.
+    """Samples with all markers that never move and at most `max_markers` of the others, evenly spread up to the last.
+
+    Markers of one robot resemble each other, and some models cost a fit per coordinate.
     """
     moves = np.asarray(informative_coordinates(samples.positions).reshape(-1, 3).any(axis=1))
     moving = np.flatnonzero(moves)
     if len(moving) <= max_markers:
         return samples
-    # Their places from the end, the last one first.
-    seen = moving[::-1][np.linspace(0, len(moving), max_markers, endpoint=False).astype(int)]
-    kept = np.repeat(~moves | np.isin(np.arange(len(moves)), seen), 3)
+    # Counted from the end, so that the last marker is always drawn.
+    drawn = moving[::-1][np.linspace(0, len(moving), max_markers, endpoint=False).astype(int)]
+    kept = np.repeat(~moves | np.isin(np.arange(len(moves)), drawn), 3)
     return Samples(samples.commands, samples.positions[:, kept])
 
 
 def possible_spaces(samples: Samples, spaces: Sequence[str], robot: Robot) -> list[str]:
-    """The target spaces whose domain holds every row; the log says why another is left out.
+    """The target spaces that hold every row; the log says why another is left out.
 
     Raises:
-        SoftkinError: none of them does.
+        SoftkinError: there is none; the error of the last one.
     """
     possible = []
     for space in spaces:
@@ -118,7 +128,7 @@ def possible_spaces(samples: Samples, spaces: Sequence[str], robot: Robot) -> li
 
 @dataclass(frozen=True, slots=True)
 class PresetFiles:
-    """Of one preset: the file of its `study`, and where the best `parameters` (JSON) and all `trials` (CSV) go."""
+    """Files of one preset: its `study` (SQLite), the best `parameters` (JSON) and all `trials` (CSV)."""
 
     study: str | Path
     parameters: str | Path
@@ -136,7 +146,18 @@ def tune_model(
     file: StudyFile,
     threads: int,
 ) -> tuple[TuningResult, dict[str, float]]:
-    """The study of one model by the score of `preset`, and every score of the best parameters."""
+    """The study of a model by the score of `preset`, and the scores (mm) of its best parameters by name.
+
+    Parameters:
+        samples: rows of `train`.
+        spec: the model.
+        preset: whose score is minimised.
+        robot: base and command norm.
+        settings: folds, rows and seed of a trial.
+        search: number of trials, scores and target spaces.
+        file: where the study lives, and the code that decides it.
+        threads: threads of a fit at most.
+    """
     spaces = possible_spaces(samples, search.target_spaces, robot)
     rows = some_markers(bounded_rows(samples, settings.max_rows, settings.seed), search.max_markers)
     parts = {TUNED: grouped_folds(rows.commands, settings.n_folds, settings.seed)}
@@ -178,7 +199,18 @@ def tune_table(
     code: Sequence[str | Path],
     threads: int,
 ) -> None:
-    """Tune on the rows of `train` in `table` by each preset, and write its `files`; `code` decides the studies."""
+    """Tune a model on `train` of `table` by each preset; write the best parameters and all trials.
+
+    Parameters:
+        table: path of the tidy table (Parquet).
+        spec: the model.
+        robot: base and command norm.
+        settings: folds, rows and seed of a trial.
+        search: number of trials, scores and target spaces.
+        files: files of each preset that is searched.
+        code: source files that decide the studies.
+        threads: threads of a fit at most.
+    """
     samples = read_subset(table, TRAIN)
     for preset, of_preset in files.items():
         logger.info("preset %s", preset)
@@ -203,8 +235,8 @@ def tune_table(
 
 def other_space(result: TuningResult) -> dict[str, Any] | None:
     """The best trial of a target space other than the best one's: its space, params and score; None without one."""
-    for found, score in result.complete:
-        if found[SPACE] != result.params[SPACE]:
-            params = {name: value for name, value in found.items() if name != SPACE}
-            return {SPACE: found[SPACE], "params": params, SCORES[OUTER]: score}
+    for params, score in result.complete:
+        if params[SPACE] != result.params[SPACE]:
+            own_params = {name: value for name, value in params.items() if name != SPACE}
+            return {SPACE: params[SPACE], "params": own_params, SCORES[OUTER]: score}
     return None

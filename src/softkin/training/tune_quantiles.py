@@ -1,4 +1,4 @@
-"""Tune a learner of quantiles on one dataset: pinball loss in grouped cross-validation on `train`."""
+"""Tune a quantile regressor on `train`: a study of its pinball loss in grouped cross-validation."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from softkin.core.errors import SoftkinError
+from softkin.core.errors import DataError
 from softkin.core.files import replacing, write_json
 from softkin.core.folds import Folds, grouped_folds
 from softkin.core.metrics.pinball import pinball_losses
@@ -19,19 +19,23 @@ from softkin.models.quantile.spec import QuantileSpec
 from softkin.training.fit_quantiles import QuantileModel
 from softkin.training.study import Search, StudyFile, TuningSettings, bounded_rows, record, run_study
 
-#: A study sees this many moving coordinates, evenly spread over the robot: each costs a model of its own.
+#: Moving coordinates that a study tunes on: each costs a regressor of its own.
 MAX_COORDINATES = 2
 
 
 def some_coordinates(samples: Samples) -> Samples:
-    """At most `MAX_COORDINATES` moving coordinates, evenly spread.
+    """Samples with at most `MAX_COORDINATES` moving coordinates, evenly spread over the robot.
 
     Raises:
-        SoftkinError: none moves.
+        DataError: none moves.
     """
     moving = np.flatnonzero(informative_coordinates(samples.positions))
     if not len(moving):
-        raise SoftkinError("no coordinate moves on `train`: there is nothing to tune; mend: check the positions")
+        raise DataError(
+            "no coordinate moves, so there is nothing to tune",
+            where="`train`",
+            fix="check the positions of `train`",
+        )
     places = np.unique(np.linspace(0, len(moving) - 1, MAX_COORDINATES).round().astype(int))
     return Samples(samples.commands, samples.positions[:, moving[places]])
 
@@ -39,7 +43,16 @@ def some_coordinates(samples: Samples) -> Samples:
 def pinball_errors(
     spec: QuantileSpec, params: Params, samples: Samples, folds: Folds, seed: int, threads: int
 ) -> Iterator[float]:
-    """Mean pinball loss (mm) of the pair of quantiles of the paper's level, fold by fold, all fitted inside it."""
+    """Mean pinball loss (mm) of the pair of quantiles of the paper's level, fold by fold.
+
+    Parameters:
+        spec: the quantile regressor.
+        params: its parameters.
+        samples: rows of `train`.
+        folds: of each fold the rows that are fitted on, standardisation included, and those that are scored.
+        seed: seed of the fits.
+        threads: threads of a fit at most.
+    """
     for fitted_rows, scored_rows in folds:
         model = QuantileModel(spec, params, [PAPERS_LEVEL], seed, threads)
         with threadpool_limits(threads):
@@ -63,7 +76,17 @@ def tune_quantiles(
     parameters: str | Path,
     trials: str | Path,
 ) -> None:
-    """Tune on the rows of `train` in `table`; write the best `parameters` (JSON) and all `trials` (CSV)."""
+    """Tune a quantile regressor on `train` of `table`; write the best parameters and all trials.
+
+    Parameters:
+        table: path of the tidy table (Parquet).
+        spec: the quantile regressor.
+        settings: number of trials; folds, rows and seed of a trial.
+        file: where the study lives, and the code that decides it.
+        threads: threads of a fit at most.
+        parameters: path of the best parameters (JSON).
+        trials: path of all trials (CSV).
+    """
     samples = some_coordinates(read_subset(table, TRAIN))
     rows = bounded_rows(samples, settings.max_rows, settings.seed)
     folds = grouped_folds(rows.commands, settings.n_folds, settings.seed)

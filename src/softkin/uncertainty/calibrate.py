@@ -1,4 +1,4 @@
-"""Calibrate: stored outputs of models and true positions of `validation` -> intervals on test and extrapolation."""
+"""Calibrate intervals: stored outputs of models and true positions of `validation` -> intervals on the new rows."""
 
 from __future__ import annotations
 
@@ -29,9 +29,10 @@ def calibrate(
     in_domain: Mapping[Run, IntervalMethod[Any]],
     intervals: Mapping[str, str | Path],
 ) -> None:
-    """Write the `intervals` of each method (Parquet: model, preset, subset, confidence_level, lower_m1_x..,
-    upper_m1_x.. in mm). `in_domain` is the method whose intervals a run gets in-domain, where a method for
-    extrapolation asks for them.
+    """Write the intervals of each method around each run on test and extrapolation.
+
+    `intervals` is method -> output (Parquet: model, preset, subset, confidence_level, lower_m1_x.., upper_m1_x.. in
+    mm). `in_domain` is run -> the method whose intervals a method for extrapolation keeps in-domain.
     """
     calibrated = {
         run: method.intervals(dict(outputs.of(method.calibrated_on))[run], outputs.levels)

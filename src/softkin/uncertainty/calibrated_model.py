@@ -1,4 +1,4 @@
-"""The chosen model of a robot with its calibration set: where is it, how sure is that, and can it be there at all?"""
+"""The calibrated model of a robot: positions, intervals, joint regions and p-values at any command."""
 
 from __future__ import annotations
 
@@ -30,11 +30,33 @@ from softkin.uncertainty.stored_outputs import norm_of, shells_of
 
 @dataclass(frozen=True, slots=True)
 class CalibratedModel:
-    """Positions, intervals, regions and p-values at any commands (n_rows, n_commands), in mm.
+    """Positions, intervals, joint regions and p-values at any commands (n_rows, n_commands), in mm.
 
-    `joblib.load("results/finger/calibrated_model.joblib")` gives one. What it promises holds for commands like those
-    it was calibrated with; outside the range of `train` nothing is promised, and where the model was fitted on cores of
-    `train` too (`shells`), intervals there are made from what it got wrong around them.
+    A run of the workflow writes one per dataset: `joblib.load("results/finger/calibrated_model.joblib")`. Coverage is
+    guaranteed for commands exchangeable with those of the calibration set. In extrapolation nothing is guaranteed;
+    with `shells`, intervals there are calibrated on the errors of the same model beyond cores of `train`.
+
+    Example, on a made-up robot of two commands and one marker:
+
+        >>> import numpy as np
+        >>> from softkin.core.samples import Samples
+        >>> from softkin.models import MODELS
+        >>> from softkin.training.kinematic_model import FitSettings, fitted_model
+        >>> from softkin.uncertainty.calibrated_model import FittedModel, calibrated
+        >>> from softkin.uncertainty.intervals import INTERVAL_METHODS
+        >>> commands = np.random.default_rng(0).uniform(-1, 1, (200, 2))
+        >>> poses = np.column_stack([40 * commands, 100 - 5 * (commands**2).sum(axis=1)])  # x, y, z in mm
+        >>> train, validation = Samples(commands[:100], poses[:100]), Samples(commands[100:], poses[100:])
+        >>> estimator = fitted_model(MODELS["lr"], FitSettings({}, skip_constant=True, seed=0, threads=1), train)
+        >>> model = FittedModel("bender", MODELS["lr"], "paper", estimator, train)
+        >>> robot = calibrated(model, INTERVAL_METHODS["scp_crepes"], validation)
+        >>> robot.predict(commands[:3]).shape  # rows, coordinates
+        (3, 3)
+        >>> robot.intervals(commands[:3], [0.8, 0.9]).shape  # nominal levels, rows, coordinates, lower and upper
+        (2, 3, 3, 2)
+        >>> lower, upper = robot.intervals(np.array([0.5, -0.5]), [0.9])[0, 0, 2]
+        >>> print(f"z at this command: {lower:.1f} to {upper:.1f} mm")
+        z at this command: 92.8 to 99.7 mm
     """
 
     dataset: str
@@ -43,13 +65,13 @@ class CalibratedModel:
     method: IntervalMethod[Any]
     estimator: Any
     train: Samples
-    #: What the method sees at any commands: `train` and `validation`, without new rows.
+    #: Calibration data of the method, without new rows.
     known: PointCalibration
     #: Typical error (n_moving,) of each moving coordinate on `train`, mm.
     scale: Array
-    #: The same model fitted on cores of `train`; none: intervals outside are as those inside.
+    #: The same model refitted on cores of `train`; none: intervals in extrapolation are as in-domain.
     shells: Sequence[Shell] = ()
-    #: How far out commands lie.
+    #: Command norm, (n_rows, n_commands) -> (n_rows,).
     norm: Callable[[Array], Array] | None = None
 
     def predict(self, commands: Array) -> Array:
@@ -57,9 +79,10 @@ class CalibratedModel:
         return np.asarray(self.estimator.predict(self._checked(commands)))
 
     def intervals(self, commands: Array, confidence_levels: Sequence[float]) -> Array:
-        """Intervals (n_levels, n_rows, n_coordinates, 2) of each coordinate; levels ascending. By the chosen method
-        inside the training region, and outside it never narrower than split conformal prediction's, nor, where that
-        tells how unsure the model is, than the chosen method's.
+        """Intervals (n_levels, n_rows, n_coordinates, 2) of each coordinate; levels ascending.
+
+        In-domain they are those of the deployed method. In extrapolation, given shells, they are never narrower than
+        those of split conformal prediction, nor than those of the deployed method if it is calibrated on a spread.
         """
         commands = self._checked(commands)
         data = replace(self.known, new=self.predict(commands), new_commands=commands)
@@ -72,15 +95,15 @@ class CalibratedModel:
         return in_domain_and_extrapolation.intervals(shells, confidence_levels)
 
     def is_outside(self, commands: Array) -> NDArray[np.bool_]:
-        """Which commands (n_rows,) lie outside the training region, where nothing is promised."""
+        """Which commands (n_rows,) lie in extrapolation, where nothing is guaranteed."""
         commands = self._checked(commands)
         norm = self.norm or command_norm(self.train.commands, standardised=True).of
         known = replace(self.known, new_commands=commands)
         return in_domain_and_extrapolation.is_in_extrapolation(ShellCalibration(known, self.shells, norm))
 
     def box(self, confidence_level: float) -> Array:
-        """Half-widths (n_coordinates,) in mm of a box around a predicted pose that holds all moving coordinates at
-        once; those that never move have none.
+        """Half-widths (n_coordinates,) in mm of the joint box around a predicted pose that holds all moving
+        coordinates at once; 0 for constant coordinates.
         """
         half = np.zeros(self.known.truth.shape[1])
         half[self._moving()] = self.scale * conformal_limit(self._scores(self._residuals()), confidence_level)
@@ -89,8 +112,8 @@ class CalibratedModel:
     def p_values(
         self, commands: Array, positions: Array, *, rng: np.random.Generator | None = None
     ) -> tuple[Array, Array]:
-        """How well measured `positions` (n_rows, n_coordinates) agree with the model: p-values of each coordinate
-        (n_rows, n_coordinates) and of the whole pose (n_rows,).
+        """p-values of measured `positions` (n_rows, n_coordinates): of each coordinate (n_rows, n_coordinates) and of
+        the whole pose (n_rows,).
 
         The paper's Eq. 4; with `rng` smoothed. Calling a pose anomalous when its p-value is at most alpha raises a
         false alarm in at most a share alpha of cases.
@@ -100,33 +123,31 @@ class CalibratedModel:
         return single, p_values(self._scores(known), self._scores(new), rng=rng)
 
     def _residuals(self) -> Array:
-        """Of the calibration set."""
+        """Residuals (n_calibration, n_coordinates) of the calibration set, mm."""
         return self.known.truth - self.known.calibration
 
     def _scores(self, residuals: Array) -> Array:
         """Nonconformity of each pose (n_rows,)."""
         return joint_scores(residuals[:, self._moving()], self.scale)
 
-    def _moving(self) -> Any:
+    def _moving(self) -> NDArray[np.bool_]:
         return informative_coordinates(self.train.positions)
 
     def _checked(self, commands: Array) -> Array:
         rows = np.atleast_2d(np.asarray(commands, dtype=np.float64))
-        wanted = self.train.commands.shape[1]
-        if rows.ndim != 2 or rows.shape[1] != wanted or not np.isfinite(rows).all():
+        n_commands = self.train.commands.shape[1]
+        if rows.ndim != 2 or rows.shape[1] != n_commands or not np.isfinite(rows).all():
             raise DataError(
-                f"expected finite commands of shape (n_rows, {wanted}), got {rows.shape}",
+                f"expected finite commands of shape (n_rows, {n_commands}), got {rows.shape}",
                 where=self.dataset,
-                fix=f"pass one row of {wanted} finite numbers per pose",
+                fix=f"pass one row of {n_commands} finite numbers per pose",
             )
         return rows
 
 
 @dataclass(frozen=True, slots=True)
 class FittedModel:
-    """A model of a dataset as it was fitted: its entry in the registry, preset, fitted estimator and the rows of
-    `train`.
-    """
+    """A fitted point model: its entry in the registry, preset, estimator, and the rows of `train`."""
 
     dataset: str
     spec: ModelSpec
@@ -135,7 +156,7 @@ class FittedModel:
     train: Samples
 
     def spread(self, commands: Array) -> Array:
-        """What the model says of its own uncertainty: (n_rows, n_coordinates) in mm."""
+        """Spread of the model at commands (n_rows, n_commands): (n_rows, n_coordinates) in mm."""
         return spread_of(self.spec, self.estimator, self.train, commands)
 
 
@@ -146,7 +167,15 @@ def calibrated(
     shells: Sequence[Shell] = (),
     norm: Callable[[Array], Array] | None = None,
 ) -> CalibratedModel:
-    """A fitted model with all that never changes worked out: its predictions of `train` and of `validation`."""
+    """The calibrated model around a fitted model, with its predictions on `train` and `validation` stored.
+
+    Parameters:
+        model: the fitted point model.
+        method: an interval method around a point model; its kind of calibration data decides whether spreads are used.
+        validation: the calibration set.
+        shells: what the same model predicts beyond cores of `train`, the smallest core first.
+        norm: command norm, (n_rows, n_commands) -> (n_rows,), that goes with the shells.
+    """
     train = model.train
     predicted = np.asarray(model.estimator.predict(validation.commands))
     known: dict[str, Array] = {
@@ -180,9 +209,17 @@ def build_calibrated_model(
     shells: str | Path | None,
     output: str | Path,
 ) -> None:
-    """Write the calibrated model (joblib): what the `choice` deploys, around one of `models`.
+    """Write the calibrated model that a `choice` deploys.
 
-    `models` is run -> fitted model, `shells` the file of `refit_shells`, if there is one.
+    Parameters:
+        table: the tidy table, of which `train` and `validation` are read.
+        dataset: its name.
+        choice: the candidates of `choose` (CSV).
+        specs: entries of the registry by model.
+        methods: interval methods by name.
+        models: run -> file of the fitted estimator (joblib).
+        shells: the file of the rule `refit_shells`, if there is one.
+        output: the calibrated model (joblib).
 
     Raises:
         ConfigError: no configured method puts an interval around a model.

@@ -1,6 +1,6 @@
 """Calibration data: what an interval method is calibrated on, one class for each kind.
 
-Rows are those of `validation` (calibration rows) and those that get intervals (new rows). Positions and spreads are
+Calibration rows have true positions; new rows get intervals. Positions and spreads are
 (n_rows, n_coordinates) in mm, commands (n_rows, n_commands), quantiles (n_levels, n_rows, n_coordinates, 2) in mm.
 """
 
@@ -19,13 +19,14 @@ Rows = NDArray[np.intp]
 
 
 class CalibrationData:
-    """What every kind says of itself.
+    """Base class of the kinds of calibration data.
 
-    `is_around_a_model`: its intervals lie around the prediction of a point model, not of a regressor of their own.
-    `is_for_extrapolation`: it serves commands beyond those of `train`, and adds nothing in-domain.
-    `has_spread`: it holds what the model itself says of its uncertainty at each command.
+    `is_around_a_model`: intervals lie around the prediction of a point model, not of a quantile regressor.
+    `is_for_extrapolation`: it serves commands in extrapolation, and adds nothing in-domain.
+    `has_spread`: it holds the spread of the model at each command.
     `needs_quantiles`, `needs_refits`, `needs_shells`: it is read from quantile regressors, from refits of a model on
-    folds or resamples, or from refits on cores of `train`.
+    folds or bootstrap samples, or from refits on cores of `train`. Calibration rows are those of `train` where it
+    needs refits, else those of `validation`.
     """
 
     is_around_a_model: ClassVar[bool] = True
@@ -34,8 +35,6 @@ class CalibrationData:
     needs_quantiles: ClassVar[bool] = False
     needs_refits: ClassVar[bool] = False
     needs_shells: ClassVar[bool] = False
-
-    truth: Array
 
 
 @dataclass(frozen=True)
@@ -50,7 +49,7 @@ class PointCalibration(CalibrationData):
     new_commands: Array
 
     def resplit(self, calibration_rows: Rows, held_out_rows: Rows) -> Self:
-        """The calibration rows split again: calibrated on some of them, asked about the others."""
+        """Calibration data on some of the calibration rows, with the held-out ones as new rows."""
         return replace(
             self,
             calibration=self.calibration[calibration_rows],
@@ -63,7 +62,7 @@ class PointCalibration(CalibrationData):
 
 @dataclass(frozen=True)
 class SpreadCalibration(PointCalibration):
-    """Predicted positions of a model that says how unsure it is: its spread, in mm, on every row."""
+    """Predicted positions of a model with a spread, and that spread, in mm, on every row."""
 
     train_spread: Array
     calibration_spread: Array
@@ -72,7 +71,7 @@ class SpreadCalibration(PointCalibration):
     has_spread: ClassVar[bool] = True
 
     def resplit(self, calibration_rows: Rows, held_out_rows: Rows) -> Self:
-        """As for predicted positions, the spread with them."""
+        """As for predicted positions; spreads are split with them."""
         return replace(
             super().resplit(calibration_rows, held_out_rows),
             calibration_spread=self.calibration_spread[calibration_rows],
@@ -97,7 +96,7 @@ class QuantileCalibration(CalibrationData):
     needs_quantiles: ClassVar[bool] = True
 
     def resplit(self, calibration_rows: Rows, held_out_rows: Rows) -> Self:
-        """The calibration rows split again: calibrated on some of them, asked about the others."""
+        """Calibration data on some of the calibration rows, with the held-out ones as new rows."""
         return replace(
             self,
             calibration=self.calibration[:, calibration_rows],
@@ -108,10 +107,10 @@ class QuantileCalibration(CalibrationData):
 
 @dataclass(frozen=True)
 class RefitCalibration(CalibrationData):
-    """A model fitted again and again on parts of `train`.
+    """A point model refitted on several parts of `train`.
 
     `fitted_rows` holds the rows of `train` of each fit; `train` (n_fits, n_train, n_coordinates) and `new` (n_fits,
-    n_new, n_coordinates) what each predicts; `truth` (n_train, n_coordinates); in mm.
+    n_new, n_coordinates) its predictions; `truth` (n_train, n_coordinates); in mm.
     """
 
     fitted_rows: Sequence[Rows]
@@ -149,9 +148,9 @@ class Shell:
 class ShellCalibration(CalibrationData):
     """The `deployed` model, fitted on all of `train`, and the same model fitted on its cores, the smallest first.
 
-    `norm` takes commands (n_rows, n_commands) to how far out they lie (n_rows,). `in_domain` (n_levels, n_rows,
-    n_coordinates, 2) are the bounds that in-domain rows get; None: those of split conformal prediction.
-    `in_domain_has_spread` says that those bounds widen where the model is unsure, not with the distance alone.
+    `norm` maps commands (n_rows, n_commands) to their command norms (n_rows,). `in_domain` (n_levels, n_rows,
+    n_coordinates, 2) are the bounds of in-domain rows; None: those of split conformal prediction.
+    `in_domain_has_spread` says that those bounds widen with the spread of the model, not with the distance alone.
     """
 
     deployed: PointCalibration
@@ -162,8 +161,3 @@ class ShellCalibration(CalibrationData):
 
     is_for_extrapolation: ClassVar[bool] = True
     needs_shells: ClassVar[bool] = True
-
-    @property
-    def truth(self) -> Array:  # type: ignore[override]
-        """True positions of the deployed model's calibration rows."""
-        return self.deployed.truth

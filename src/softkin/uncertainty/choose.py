@@ -1,4 +1,4 @@
-"""Choose the interval method of a dataset, on `validation` alone: nothing of `test` is looked at."""
+"""Choose the interval method of a dataset by cross-validated Winkler scores on `validation`."""
 
 from __future__ import annotations
 
@@ -31,18 +31,18 @@ Resplittable = PointCalibration | QuantileCalibration
 
 
 def nearest_level(confidence_levels: list[float]) -> float:
-    """The configured level nearest to the paper's: methods are compared at it."""
+    """The configured level nearest to the paper's, at which methods are compared."""
     return min(confidence_levels, key=lambda level: abs(level - PAPERS_LEVEL))
 
 
 def shown_runs(choice: str | Path) -> set[Run]:
-    """The runs whose intervals are shown at length: the paper's, and those that were candidates."""
+    """The runs whose intervals are shown at length: the paper's and the candidates of a `choice`."""
     candidates = pd.read_csv(choice, dtype=str)
     return {PAPERS_RUN, *map(Run, candidates["model"], candidates["preset"])}
 
 
 def deployed_choice(choice: str | Path) -> pd.Series | None:
-    """The row of a `choice` that the calibrated model has; None where no candidate is around a point model."""
+    """The row of a `choice` that is deployed; None where no candidate is around a point model."""
     candidates = pd.read_csv(choice)
     around_model = candidates[candidates["deployed"]]
     return None if around_model.empty else around_model.iloc[0]
@@ -57,16 +57,23 @@ def choose(
     regime: str,
     choice: str | Path,
 ) -> None:
-    """Write the `choice` (CSV: model, preset, interval_method, confidence_level, cv_winkler_mm, chosen, deployed,
-    outside), best first.
+    """Write the candidates with their cross-validated Winkler scores, best first.
 
-    The best is `chosen`; `deployed` is the best around the prediction of a point model, which the calibrated model has:
-    a method on quantiles has regressors of its own. `outside` names the method that gives its intervals in
-    extrapolation: by the `regime` `auto` that of this name, where there are shells of this run, else the same.
+    Candidates are the in-domain methods with a marginal guarantee around one of `runs`, and those calibrated on
+    quantiles. Each is calibrated on four folds of `validation` and scored on the held-out one, five times: the mean
+    Winkler score over moving coordinates. Ties go to the method that comes first.
 
-    Candidates are the in-domain methods with a marginal guarantee around one of `runs`, and those on quantiles. Each is
-    calibrated on four fifths of `validation` and scored on the rest, five times over: the mean Winkler score over
-    moving coordinates. Ties go to the method that comes first.
+    The best is `chosen`. `deployed` is the best around a point model, which the calibrated model holds. `outside` names
+    the method of its intervals in extrapolation: `auto` if the regime is `auto` and the run has shells, else the same.
+
+    Parameters:
+        outputs: stored outputs of the dataset.
+        methods: interval methods by name; earlier ones win ties.
+        runs: runs that may be deployed.
+        seed: of the folds.
+        regime: one of `REGIMES`.
+        choice: output (CSV: model, preset, interval_method, confidence_level, cv_winkler_mm, chosen, deployed,
+            outside).
 
     Raises:
         ConfigError: no method is calibrated.
@@ -101,7 +108,7 @@ def _scored_candidates(
     level = nearest_level(outputs.levels)
     moving = informative_coordinates(outputs.train.positions)
     for name, method in methods.items():
-        # Methods for extrapolation are scored nowhere: no row of `validation` lies there.
+        # Methods for extrapolation cannot be scored here: no row of `validation` lies there.
         if method.guarantee != MARGINAL or method.calibrated_on.is_for_extrapolation:
             continue
         for run, data in outputs.of(method.calibrated_on):
@@ -121,7 +128,7 @@ def _scored_candidates(
 
 
 def resplits(data: Resplittable, seed: int) -> Iterator[tuple[Resplittable, NDArray[np.intp]]]:
-    """The calibration rows split again: data calibrated on most of them, whose `new` rows are the held-out ones."""
+    """Calibration data on all folds of the calibration rows but one, and the held-out rows, for each fold."""
     splitter = KFold(N_FOLDS, shuffle=True, random_state=seed)
     for calibration_rows, held_out in splitter.split(data.truth):
         yield data.resplit(calibration_rows, held_out), held_out

@@ -1,4 +1,4 @@
-"""What every conformal method needs: the exact rank, and a level that no engine can round wrongly."""
+"""Conformal prediction: exact ranks and limits, p-values, and levels that no engine (MAPIE, crepes) rounds wrongly."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import numpy as np
 from softkin.core.samples import Array
 from softkin.uncertainty.calibration_data import PointCalibration
 
-#: Smallest difficulty, mm: far below any robot's errors.
+#: Smallest difficulty, mm: far below the errors of any robot.
 TINY = 1e-12
 
 
@@ -34,7 +34,7 @@ def conformal_limit(scores: Array, confidence_level: float) -> float:
 
 def conformal_limits(scores: Array, confidence_levels: Sequence[float]) -> Array:
     """As `conformal_limit`, for each level and column of scores (n_rows, n_columns): (n_levels, n_columns)."""
-    return np.array([[conformal_limit(mine, level) for mine in scores.T] for level in confidence_levels])
+    return np.array([[conformal_limit(column, level) for column in scores.T] for level in confidence_levels])
 
 
 def weighted_limits(scores: Array, weights: Array, own: Array, confidence_levels: Sequence[float]) -> Array:
@@ -47,9 +47,9 @@ def weighted_limits(scores: Array, weights: Array, own: Array, confidence_levels
     order = np.argsort(scores, axis=0)
     ordered = np.vstack([np.take_along_axis(scores, order, axis=0), np.full(scores.shape[1], np.inf)])
     sums = np.cumsum(weights[order], axis=0)
-    wanted = np.outer(confidence_levels, weights.sum() + own) * (1 - 1e-12)  # a sum that just suffices does
-    places = [np.searchsorted(mine, wanted) for mine in sums.T]
-    return np.stack([mine[place] for mine, place in zip(ordered.T, places, strict=True)], axis=-1)
+    needed = np.outer(confidence_levels, weights.sum() + own) * (1 - 1e-12)  # rounding must not skip an equal sum
+    places = [np.searchsorted(column, needed) for column in sums.T]
+    return np.stack([column[place] for column, place in zip(ordered.T, places, strict=True)], axis=-1)
 
 
 def around(predicted: Array, half_widths: Array) -> Array:
@@ -58,9 +58,8 @@ def around(predicted: Array, half_widths: Array) -> Array:
 
 
 def error_scale(train_errors: Array) -> Array:
-    """Typical size (n_columns,) of the errors on `train`: their 90 % quantile, which a few failed rows cannot move.
-
-    A model that repeats `train` exactly has none; then all columns count alike.
+    """Typical size (n_columns,) of absolute errors on `train` (n_rows, n_columns): their 90 % quantile, which a few
+    gross errors cannot move. 1 for all columns where a model repeats `train` exactly.
     """
     typical = np.quantile(train_errors, 0.9, axis=0)
     largest = float(typical.max())
@@ -82,7 +81,7 @@ def two_sided_rank(n_calibration: int, confidence_level: float) -> int | None:
 
 
 def p_values(calibration_scores: Array, scores: Array, *, rng: np.random.Generator | None = None) -> Array:
-    """Conformal p-values of nonconformity `scores` (n_rows, ...) against those of the calibration set (n, ...).
+    """Conformal p-values (n_rows, ...) of nonconformity `scores` (n_rows, ...), given `calibration_scores` (n, ...).
 
     The paper's Eq. 4: (number of calibration scores that are at least as large + 1) / (n + 1). With `rng` smoothed:
     scores that are equal count with a uniform random share, so that p-values are exactly uniform (Vovk, Gammerman
@@ -92,16 +91,16 @@ def p_values(calibration_scores: Array, scores: Array, *, rng: np.random.Generat
     n = len(ordered)
     flat, flat_scores = ordered.reshape(n, -1), scores.reshape(len(scores), -1)
     pairs = list(zip(flat.T, flat_scores.T, strict=True))
-    at_least = n - np.column_stack([np.searchsorted(mine, new, side="left") for mine, new in pairs])
+    at_least = n - np.column_stack([np.searchsorted(known, new, side="left") for known, new in pairs])
     if rng is None:
         return np.asarray((at_least + 1) / (n + 1)).reshape(scores.shape)
-    above = n - np.column_stack([np.searchsorted(mine, new, side="right") for mine, new in pairs])
+    above = n - np.column_stack([np.searchsorted(known, new, side="right") for known, new in pairs])
     share = rng.uniform(size=above.shape)
     return np.asarray((above + share * (at_least - above + 1)) / (n + 1)).reshape(scores.shape)
 
 
 def unbounded(n_levels: int, shape: tuple[int, ...]) -> Array:
-    """Intervals (n_levels, *shape, 2) from minus to plus infinity, to be filled where the calibration set suffices."""
+    """Intervals (n_levels, *shape, 2) from minus to plus infinity, as of too small a calibration set."""
     result = np.empty((n_levels, *shape, 2))
     result[..., 0], result[..., 1] = -np.inf, np.inf
     return result
@@ -110,13 +109,13 @@ def unbounded(n_levels: int, shape: tuple[int, ...]) -> Array:
 def engine_level(n_calibration: int, rank: int) -> float:
     """A confidence level in the middle of all those with this rank, (k - 1/2) / (n + 1).
 
-    Handed to an engine instead of the nominal one, its own arithmetic cannot fall on the wrong side of an integer.
+    An engine that gets it instead of the nominal level cannot round to a neighbouring rank.
     """
     return (rank - 0.5) / (n_calibration + 1)
 
 
 def columns(array: Array) -> list[Array]:
-    """The coordinates of (n_rows, n_coordinates) one by one: the engines are 1-D.
+    """Columns (n_rows,) of an array (n_rows, n_coordinates): the engines take one coordinate at a time.
 
     Raises:
         ValueError: not a 2-D array.
@@ -127,12 +126,12 @@ def columns(array: Array) -> list[Array]:
 
 
 def uncrossed(quantiles: Array) -> Array:
-    """Quantiles (..., 2) with lower and upper in order: where two predicted quantiles cross, they are exchanged."""
+    """Quantiles (..., 2) with lower and upper in order: crossed ones are exchanged."""
     return np.sort(quantiles, axis=-1)
 
 
 def closed(intervals: Array) -> Array:
-    """Intervals (..., 2) with an empty one, lower above upper, closed to its middle."""
+    """Intervals (..., 2) in which empty ones, lower above upper, are replaced by their middle."""
     result = intervals.copy()
     empty = intervals[..., 0] > intervals[..., 1]
     result[empty] = intervals[empty].mean(axis=-1, keepdims=True)
@@ -142,16 +141,17 @@ def closed(intervals: Array) -> Array:
 def normalised_intervals(
     data: PointCalibration, confidence_levels: Sequence[float], calibration_difficulty: Array, new_difficulty: Array
 ) -> Array:
-    """Split conformal intervals whose half-width is proportional to a difficulty (n_rows, n_coordinates) above 0.
+    """Split conformal intervals (n_levels, n_new, n_coordinates, 2) whose half-width is proportional to a difficulty.
 
-    One coordinate at a time by crepes.ConformalRegressor; infinite where the calibration set is too small.
+    Difficulties are (n_rows, n_coordinates) and not negative. One coordinate at a time by crepes.ConformalRegressor;
+    infinite where the calibration set is too small.
     """
     from crepes import ConformalRegressor
 
     n = len(data.truth)
     result = unbounded(len(confidence_levels), data.new.shape)
     for coordinate, residuals in enumerate(columns(data.truth - data.calibration)):
-        # A coordinate that never moves has no spread and no residuals: any difficulty will do.
+        # A constant coordinate has no spread and no residuals: any difficulty will do.
         known, new = (np.maximum(d[:, coordinate], TINY) for d in (calibration_difficulty, new_difficulty))
         regressor = ConformalRegressor().fit(residuals, sigmas=known)
         for place, level in enumerate(confidence_levels):
@@ -164,7 +164,7 @@ def normalised_intervals(
 
 @contextmanager
 def global_random_state_kept() -> Iterator[None]:
-    """Leave numpy's global random state as it was: engines seed it."""
+    """Restore numpy's global random state on exit: engines seed it."""
     state = np.random.get_state()
     try:
         yield

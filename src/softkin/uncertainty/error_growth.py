@@ -1,4 +1,4 @@
-"""How errors grow with the distance beyond what a model was fitted on: a law read off the shells of `train`."""
+"""Error-growth model: how errors grow with the distance beyond the core that a model was fitted on."""
 
 from __future__ import annotations
 
@@ -11,106 +11,113 @@ from softkin.uncertainty.calibration_data import ShellCalibration
 
 #: Smallest error, mm.
 TINY_MM = 1e-12
-#: What keeps terms that no row tells apart (the reach of one core) at 0.
+#: Penalty that keeps coefficients at 0 that no row identifies (the core exponent, where there is one core).
 RIDGE = 1e-8
-#: A gross error (a stuck pose) counts as so many times what the law says of its place.
+#: An error counts at most as so many times what the fit predicts: gross errors (a stuck pose) are capped.
 CAP = 3.0
 MAX_CAPPINGS = 10
 
 
 @dataclass(frozen=True, slots=True)
-class Growth:
-    """Error proportional to reach^`reach` * exp(`distance` x + `bend` x^2), each (n_coordinates,), x = log(distance).
+class ErrorGrowth:
+    """Error proportional to core^`core_exponent` * exp(`slope` x + `bend` x^2), x = log(distance), coefficients
+    (n_coordinates,).
 
-    `reach` is how far out the core goes, in units of how far `train` goes; the distance of a command is its norm in
-    units of the core's reach. Beyond `farthest`, the largest x of any shell, it goes on as steeply as it got there,
-    which is never downwards, so that an interval never narrows along a ray that leaves the core. `largest` is the reach
-    of the largest core.
+    core is the radius (largest command norm) of the core in units of that of `train`; the distance of a command is its
+    norm in units of the radius of the core. Beyond `largest_log_distance`, that of all shells, log error continues as a
+    straight line in x, and never falls: an interval never narrows along a ray that leaves the core. `largest_core` is
+    that of all cores.
     """
 
-    reach: Array
-    distance: Array
+    core_exponent: Array
+    slope: Array
     bend: Array
-    largest: float
-    farthest: float
+    largest_core: float
+    largest_log_distance: float
 
-    def of_shell(self, reach: float, distances: Array) -> Array:
-        """Difficulty (n_rows, n_coordinates) of the rows of a shell, around a core of this reach."""
-        return np.asarray(np.exp(self.reach * np.log(reach) + self._of(distances)))
+    def of_shell(self, core: float, distances: Array) -> Array:
+        """Difficulty (n_rows, n_coordinates) of the rows of a shell at distances (n_rows,) beyond this core."""
+        return np.asarray(np.exp(self.core_exponent * np.log(core) + self._log_error(distances)))
 
     def of_new(self, distances: Array) -> Array:
-        """Difficulty (n_rows, n_coordinates) of new rows for the model fitted on all of `train`.
+        """Difficulty (n_rows, n_coordinates) of new rows for the model fitted on all of `train`, whose core is 1.
 
-        Errors that shrank from core to core count as those of the largest: no law makes a model better than the best
-        that was seen.
+        Where errors shrink from core to core (a negative exponent) it is that of the largest core: no model is taken to
+        be better than the best one that was measured.
         """
-        best_seen = np.where(self.reach < 0, self.reach * np.log(self.largest), 0.0)
-        return np.asarray(np.exp(best_seen + self._of(distances)))
+        floor = np.where(self.core_exponent < 0, self.core_exponent * np.log(self.largest_core), 0.0)
+        return np.asarray(np.exp(floor + self._log_error(distances)))
 
-    def _of(self, distances: Array) -> Array:
+    def _log_error(self, distances: Array) -> Array:
         x = np.log(distances)[:, None]
-        near = np.minimum(x, self.farthest)
-        beyond = (x - near) * (self.distance + 2 * self.bend * self.farthest)
-        return np.asarray(near * self.distance + near**2 * self.bend + beyond)
+        near = np.minimum(x, self.largest_log_distance)
+        beyond = (x - near) * (self.slope + 2 * self.bend * self.largest_log_distance)
+        return np.asarray(near * self.slope + near**2 * self.bend + beyond)
 
 
-def reach(data: ShellCalibration) -> float:
-    """How far out `train` goes: the largest norm of its commands."""
+def train_radius(data: ShellCalibration) -> float:
+    """Largest norm of the commands of `train`."""
     return float(data.norm(data.deployed.train_commands).max())
 
 
 def new_distances(data: ShellCalibration) -> Array:
-    """Norms (n_rows,) of the new commands in units of the reach of `train`, at least 1."""
-    return np.maximum(data.norm(data.deployed.new_commands) / reach(data), 1.0)
+    """Norms (n_rows,) of the new commands in units of the radius of `train`, at least 1."""
+    return np.maximum(data.norm(data.deployed.new_commands) / train_radius(data), 1.0)
 
 
 def shell_distances(data: ShellCalibration) -> list[tuple[float, Array]]:
-    """Reach of each core in units of that of `train`, and the distances (n_shell,) of its shell's rows, above 1."""
-    found = []
+    """Radius of each core in units of that of `train`, and distances (n_shell,) of the rows of its shell, above 1."""
+    places = []
     for shell in data.shells:
-        core = float(data.norm(shell.core_commands).max())
-        found.append((core / reach(data), data.norm(shell.commands) / core))
-    return found
+        radius = float(data.norm(shell.core_commands).max())
+        places.append((radius / train_radius(data), data.norm(shell.commands) / radius))
+    return places
 
 
-def growth_laws(data: ShellCalibration) -> list[Growth]:
-    """Two laws: one of each coordinate, and one that all share, which few rows tell better. Fitted to the errors of
-    each coordinate, and to those of all in units of their 90 % quantiles; each shell counts alike.
+def fit_error_growth(data: ShellCalibration) -> list[ErrorGrowth]:
+    """Two error-growth models: one with coefficients for each coordinate, one with coefficients that all share.
+
+    The first is fitted to the errors of each coordinate, the second, for which few rows suffice, to the root mean
+    square over coordinates of errors in units of their 90 % quantiles. Each shell has the same total weight.
     """
     errors = np.concatenate([np.abs(shell.truth - shell.predicted) for shell in data.shells])
     places = shell_distances(data)
-    reaches = np.concatenate([np.full(len(distances), np.log(core)) for core, distances in places])
-    distances = np.log(np.concatenate([distances for _, distances in places]))
+    log_cores = np.concatenate([np.full(len(distances), np.log(core)) for core, distances in places])
+    log_distances = np.log(np.concatenate([distances for _, distances in places]))
     weights = np.concatenate([np.full(len(distances), 1 / len(distances)) for _, distances in places])
     scale = np.maximum(np.quantile(errors, 0.9, axis=0), TINY_MM)
     together = np.sqrt(np.mean((errors / scale) ** 2, axis=1))
     n_coordinates = errors.shape[1]
-    laws = []
+    models = []
     for columns in (errors, together[:, None]):
-        slopes = np.array([law(column, reaches, distances, weights) for column in np.maximum(columns, TINY_MM).T])
-        by_reach, by_distance, bend = np.broadcast_to(slopes, (n_coordinates, 3)).T
-        laws.append(Growth(by_reach, by_distance, bend, max(core for core, _ in places), float(distances.max())))
-    return laws
+        fits = [growth_coefficients(c, log_cores, log_distances, weights) for c in np.maximum(columns, TINY_MM).T]
+        exponent, slope, bend = np.broadcast_to(np.array(fits), (n_coordinates, 3)).T
+        largest_core = max(core for core, _ in places)
+        models.append(ErrorGrowth(exponent, slope, bend, largest_core, float(log_distances.max())))
+    return models
 
 
-def law(errors: Array, log_reaches: Array, log_distances: Array, weights: Array) -> tuple[float, float, float]:
-    """Slope of the logarithm of the mean error in reach; slope and bend in distance, rising as far as there are rows:
-    without a bend where it would fall there, without a slope where that would. `errors` (n_rows,) are above 0.
+def growth_coefficients(
+    errors: Array, log_cores: Array, log_distances: Array, weights: Array
+) -> tuple[float, float, float]:
+    """Core exponent, slope and bend of an error-growth model, of one column of errors (n_rows,) above 0.
 
-    By maximum likelihood of exponential errors (a gamma regression with a logarithmic link), gross ones capped. Least
-    squares of their logarithms would heed most the smallest errors, which tell nothing: those that cross zero.
+    The fit must not fall within the distances of the rows: where it does, it is repeated without a bend, and where it
+    still does, without a slope. Maximum likelihood of exponentially distributed errors, gross ones capped: a gamma
+    regression with a logarithmic link. Least squares of their logarithms would give most weight to the smallest errors,
+    those that happen to cross zero.
     """
-    terms = np.column_stack([log_reaches, log_distances, log_distances**2])
-    found = np.zeros(3)
+    terms = np.column_stack([log_cores, log_distances, log_distances**2])
+    coefficients = np.zeros(3)
     for n_terms in (3, 2, 1):
-        found[:] = 0.0
-        found[:n_terms] = slopes(terms[:, :n_terms], errors, weights)
-        if found[1] >= 0 and found[1] + 2 * found[2] * log_distances.max() >= 0:
+        coefficients[:] = 0.0
+        coefficients[:n_terms] = capped_gamma_regression(terms[:, :n_terms], errors, weights)
+        if coefficients[1] >= 0 and coefficients[1] + 2 * coefficients[2] * log_distances.max() >= 0:
             break
-    return float(found[0]), float(found[1]), float(found[2])
+    return float(coefficients[0]), float(coefficients[1]), float(coefficients[2])
 
 
-def slopes(terms: Array, errors: Array, weights: Array) -> Array:
+def capped_gamma_regression(terms: Array, errors: Array, weights: Array) -> Array:
     """Coefficients (n_terms,) of the logarithm of the mean error (n_rows,), with errors capped anew after each fit."""
     from sklearn.linear_model import GammaRegressor
 

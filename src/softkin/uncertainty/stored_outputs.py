@@ -30,15 +30,20 @@ from softkin.uncertainty.calibration_data import (
 )
 from softkin.uncertainty.intervals.spec import Data
 
-#: The subsets that get intervals; the `new` rows of calibration data are theirs, in this order.
+#: The subsets that get intervals: the new rows of calibration data, in this order.
 INTERVAL_SUBSETS = (TEST, EXTRAPOLATION)
 
 
 class StoredOutputs:
-    """Stored outputs of one dataset: `predictions` and `quantiles` are run -> file, `refits` and `shells` one file
-    each, or None.
+    """Stored outputs of the models of one dataset.
 
-    Of `table` the true positions of `train` and `validation` are read, and commands.
+    Parameters:
+        table: the tidy table; true positions are read of `train` and `validation` only.
+        predictions: run -> file of its predicted positions.
+        quantiles: run -> file of its predicted quantiles.
+        refits: the file of the rule `refit`; None: no run was refitted on folds and bootstrap samples.
+        confidence_levels: nominal levels in (0, 1), ascending.
+        shells: the file of the rule `refit_shells`; None: no run was refitted on cores of `train`.
     """
 
     def __init__(
@@ -60,7 +65,7 @@ class StoredOutputs:
         self.refits, self.shells = read_run_archive(refits), read_run_archive(shells)
 
     def of(self, kind: type[Data]) -> Iterator[tuple[Run, Data]]:
-        """Every run that has stored outputs of this kind, with its calibration data."""
+        """Runs that have stored outputs of this kind, each with its calibration data."""
         readers: dict[type[Any], Callable[[], Iterator[tuple[Run, Any]]]] = {
             PointCalibration: self._points,
             SpreadCalibration: lambda: self._spreads(SpreadCalibration, STANDARD_DEVIATION, SPREAD),
@@ -73,7 +78,7 @@ class StoredOutputs:
         return readers[kind]()
 
     def by_subset(self, rows: Array, axis: int = 0) -> dict[str, Array]:
-        """An array over the `new` rows, taken apart into test and extrapolation."""
+        """An array over the new rows, split into test and extrapolation along `axis`."""
         sizes = [len(self.new_commands[subset]) for subset in INTERVAL_SUBSETS]
         return dict(zip(INTERVAL_SUBSETS, np.split(rows, np.cumsum(sizes)[:-1], axis=axis), strict=True))
 
@@ -124,9 +129,10 @@ class StoredOutputs:
             fitted_rows = list(self.refits.shared[RESAMPLE_ROWS])
             yield run, ResampleCalibration(fitted_rows, train, self.train.positions, new)
 
-    def _refitted(self, wanted: str) -> Iterator[tuple[Run, Array, Array]]:
+    def _refitted(self, kind: str) -> Iterator[tuple[Run, Array, Array]]:
+        """Runs with the predictions of their refits on `train` and on the new rows."""
         for (run, part), predicted in self.refits.of_runs.items():
-            if part == wanted:
+            if part == kind:
                 yield run, predicted[:, : len(self.train)], predicted[:, len(self.train) :]
 
     def _shells(self) -> Iterator[tuple[Run, ShellCalibration]]:
@@ -135,7 +141,7 @@ class StoredOutputs:
 
 
 def stored_outputs(files: Any, params: Any) -> StoredOutputs:
-    """The stored outputs that the inputs `files` and the `params` of an interval rule name."""
+    """The stored outputs named by the inputs `files` and the `params` of a rule for intervals."""
     return StoredOutputs(
         files.table,
         predictions=dict(zip([Run(*run) for run in params.runs], files.predictions, strict=True)),
@@ -147,7 +153,7 @@ def stored_outputs(files: Any, params: Any) -> StoredOutputs:
 
 
 def shells_of(archive: RunArchive, train: Samples) -> dict[Run, list[Shell]]:
-    """The shells of each run in an archive of `refit_shells`, the smallest core first."""
+    """Shells of each run in an archive of `refit_shells`, the smallest core first."""
     shells: dict[Run, list[Shell]] = {}
     for (run, place), predicted in archive.of_runs.items():
         core, shell = archive.shared[core_rows(place)], archive.shared[shell_rows(place)]
@@ -157,7 +163,7 @@ def shells_of(archive: RunArchive, train: Samples) -> dict[Run, list[Shell]]:
 
 
 def norm_of(archive: RunArchive) -> Callable[[Array], Array]:
-    """How far out commands (n_rows, n_commands) lie (n_rows,), by an archive of `refit_shells`."""
+    """Command norm, (n_rows, n_commands) -> (n_rows,), stored in an archive of `refit_shells`."""
     return CommandNorm(archive.shared[CENTRE], archive.shared[SCALE]).of
 
 

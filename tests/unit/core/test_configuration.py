@@ -8,7 +8,7 @@ import pytest
 import yaml
 
 from softkin.core.configuration import check_configuration
-from softkin.core.errors import SoftkinError
+from softkin.core.errors import ConfigError
 from softkin.data.readers import READERS
 from softkin.data.standins import STANDINS
 from softkin.models import MODELS
@@ -63,10 +63,10 @@ def test_the_shipped_configuration_is_good() -> None:
         (lambda c: c["sources"]["finger"].update(paper_params={"mpl": {}}), ["did you mean 'mlp'?"]),
     ],
 )
-def test_a_mistake_is_named_with_its_mend(spoil: Callable[[dict[str, Any]], Any], says: list[str]) -> None:
+def test_a_mistake_is_named_with_its_fix(spoil: Callable[[dict[str, Any]], Any], says: list[str]) -> None:
     config = copy.deepcopy(GOOD)
     spoil(config)
-    with pytest.raises(SoftkinError) as error:
+    with pytest.raises(ConfigError) as error:
         check(config)
     for part in says:
         assert part in str(error.value)
@@ -118,7 +118,7 @@ def test_a_robot_of_ones_own_is_one_entry(changes: dict[str, Any]) -> None:
 )
 def test_a_mistake_in_a_robot_of_ones_own_is_named(changes: dict[str, Any], says: list[str]) -> None:
     entry = {key: value for key, value in (OWN | changes).items() if value is not None}
-    with pytest.raises(SoftkinError) as error:
+    with pytest.raises(ConfigError) as error:
         check(GOOD | {"sources": GOOD["sources"] | {"arm": entry}})
     for part in says:
         assert part in str(error.value)
@@ -127,14 +127,14 @@ def test_a_mistake_in_a_robot_of_ones_own_is_named(changes: dict[str, Any], says
 def test_keys_of_a_table_do_not_belong_to_a_published_dataset() -> None:
     config = copy.deepcopy(GOOD)
     config["sources"]["finger"]["split"] = {"method": "random"}
-    with pytest.raises(SoftkinError, match=r"sources\.finger: 'split' .*belongs to format table_file"):
+    with pytest.raises(ConfigError, match=r"sources\.finger: 'split' .*belongs to format table_file"):
         check(config)
 
 
-def test_all_mistakes_are_told_at_once() -> None:
+def test_all_mistakes_are_listed_at_once() -> None:
     config = copy.deepcopy(GOOD)
     config["sed"], config["tuning"]["n_trails"] = 1, 2
-    with pytest.raises(SoftkinError, match=r"(?s)n_trails.*sed|sed.*n_trails"):
+    with pytest.raises(ConfigError, match=r"(?s)n_trails.*sed|sed.*n_trails"):
         check(config)
 
 

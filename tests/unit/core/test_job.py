@@ -14,14 +14,14 @@ from softkin.core.job import ON_A_SCREEN, job, stopwatch
 def test_bad_input_ends_with_its_message_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     log = tmp_path / "logs" / "job.log"
     with pytest.raises(SystemExit) as end, job(str(log), "prepare finger"):
-        raise SoftkinError("row 7 is empty; mend: fill it")
+        raise SoftkinError("no value", where="row 7", fix="fill the cell")
     assert end.value.code == 1
-    assert "row 7 is empty" in log.read_text()
+    assert "row 7: no value" in log.read_text()
     printed = capsys.readouterr().err
-    assert printed == "prepare finger: row 7 is empty; mend: fill it\n"
+    assert printed == "prepare finger: row 7: no value\n  fix: fill the cell\n"
 
 
-def test_our_own_defects_keep_their_traceback(tmp_path: Path) -> None:
+def test_a_defect_keeps_its_traceback(tmp_path: Path) -> None:
     with pytest.raises(ZeroDivisionError), job(str(tmp_path / "job.log"), "x"):
         1 / 0  # noqa: B018
     assert "Traceback" in (tmp_path / "job.log").read_text()
@@ -42,7 +42,7 @@ def test_the_stopwatch_tells_waiting_from_working() -> None:
     assert watch.cpu_seconds < 0.05
 
 
-def test_it_leaves_the_log_as_it_found_it(tmp_path: Path) -> None:
+def test_the_log_is_as_before_when_a_job_ends(tmp_path: Path) -> None:
     """A handler that outlives its job would write to streams that are closed by then."""
     with job(str(tmp_path / "a.log"), "a"):
         assert len(logging.getLogger("softkin").handlers) == 2

@@ -2,11 +2,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-import softkin.rows
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
+import softkin.core.rows
 from softkin.core.rows import (
     command_scale,
     first_of_each,
@@ -42,7 +42,7 @@ def test_zero_equals_minus_zero_and_nothing_else_is_rounded() -> None:
 def test_groups_do_not_depend_on_the_chunk(monkeypatch: pytest.MonkeyPatch) -> None:
     values = np.random.default_rng(0).integers(0, 3, (100, 2)).astype(float)
     whole = row_groups(values)
-    monkeypatch.setattr(softkin.rows, "CHUNK", 7)
+    monkeypatch.setattr(softkin.core.rows, "CHUNK", 7)
     np.testing.assert_array_equal(row_groups(values), whole)
 
 

@@ -2,10 +2,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-import softkin.rows
 from hypothesis import given
 from hypothesis import strategies as st
 
+import softkin.core.rows
 from softkin.core.smooth_fit import MAX_TERMS, ROWS_PER_TERM, degree_for, fit_smoothly
 
 
@@ -28,8 +28,8 @@ def test_the_limit_grows_where_rows_are_few() -> None:
     rng = np.random.default_rng(0)
     commands = rng.uniform(-1, 1, (300, 1))
     fit = fit_smoothly(commands, np.sin(commands) + 0.01 * rng.standard_normal((300, 1)), np.arange(300))
-    inside, outside = fit.limits(np.array([[0.0], [2.0]]), 5)
-    assert outside[0] > 20 * inside[0]
+    middle, beyond = fit.limits(np.array([[0.0], [2.0]]), 5)
+    assert beyond[0] > 20 * middle[0]
 
 
 def test_the_leverage_is_that_of_least_squares() -> None:
@@ -46,10 +46,10 @@ def test_a_command_that_never_varies_does_no_harm() -> None:
     assert np.abs(fit.residuals(commands, commands[:, :1] ** 3)).max() < 1e-9
 
 
-def test_a_coordinate_that_stands_still_but_for_a_few_rows_has_a_reach() -> None:
+def test_a_coordinate_that_does_not_move_but_for_a_few_rows_has_an_extent() -> None:
     positions = np.zeros((100, 1))
     positions[50] = 4.0
-    assert fit_smoothly(np.linspace(-1, 1, 100)[:, None], positions, np.arange(100)).reach == [4.0]
+    assert fit_smoothly(np.linspace(-1, 1, 100)[:, None], positions, np.arange(100)).extent == [4.0]
 
 
 @given(st.integers(0, 10_000), st.integers(1, 64))
@@ -67,5 +67,5 @@ def test_residuals_do_not_depend_on_the_chunk(monkeypatch: pytest.MonkeyPatch) -
     commands = np.random.default_rng(0).uniform(-1, 1, (50, 2))
     fit = fit_smoothly(commands, np.sin(commands), np.arange(50))
     whole = fit.residuals(commands, np.sin(commands))
-    monkeypatch.setattr(softkin.rows, "CHUNK", 7)
+    monkeypatch.setattr(softkin.core.rows, "CHUNK", 7)
     np.testing.assert_allclose(fit.residuals(commands, np.sin(commands)), whole, atol=1e-12)

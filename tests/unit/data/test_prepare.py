@@ -11,7 +11,7 @@ import pandas as pd
 import pytest
 import yaml
 
-from softkin.core.errors import SoftkinError
+from softkin.core.errors import DataError
 from softkin.core.files import read_json
 from softkin.core.samples import SUBSETS, Samples
 from softkin.data.prepare import MM_PER_UNIT, prepare
@@ -37,28 +37,28 @@ def run(folder: Path, source: dict[str, Any], **options: Any) -> tuple[Path, Any
 
 @pytest.mark.parametrize("unit", MM_PER_UNIT)
 def test_positions_become_millimetres_and_commands_stay(tmp_path: Path, unit: str) -> None:
-    table, about = run(tmp_path, entry(position_unit=unit))
+    table, written_description = run(tmp_path, entry(position_unit=unit))
     original = four_subsets(SIZES, n_commands=3, n_markers=2)
     factor = {"m": 1000, "cm": 10, "mm": 1, "in": 25.4}[unit]
     for subset in SUBSETS:
         rows = read_subset(table, subset)
         np.testing.assert_array_equal(rows.commands, original[subset].commands)
         np.testing.assert_allclose(rows.positions, original[subset].positions * factor, rtol=1e-15)
-    assert about["rows"] == SIZES
-    assert about["constant_coordinates"] == ["m1_x", "m1_y", "m1_z"]
+    assert written_description["rows"] == SIZES
+    assert written_description["constant_coordinates"] == ["m1_x", "m1_y", "m1_z"]
     assert list(pd.read_parquet(table).columns[:5]) == ["subset", "u1", "u2", "u3", "m1_x"]
 
 
 def test_another_number_of_rows_than_registered_is_an_error(tmp_path: Path) -> None:
-    with pytest.raises(SoftkinError, match=r"'arm', subset 'test': 6 rows.*registers 8"):
+    with pytest.raises(DataError, match=r"'arm'.*subset test: 6 rows.*registers 8"):
         run(tmp_path, entry(rows=SIZES | {"test": 8}))
     assert not (tmp_path / "table.parquet").exists()
 
 
 def test_max_rows_keeps_the_first_rows_and_says_so(tmp_path: Path) -> None:
-    _, about = run(tmp_path, entry(), max_rows=6)
-    assert about["rows"] == {"train": 6, "validation": 5, "test": 6, "extrapolation": 6}
-    assert about["is_cut"]
+    _, written_description = run(tmp_path, entry(), max_rows=6)
+    assert written_description["rows"] == {"train": 6, "validation": 5, "test": 6, "extrapolation": 6}
+    assert written_description["is_cut"]
     assert not run(tmp_path, entry())[1]["is_cut"]
 
 
@@ -68,18 +68,18 @@ def test_a_table_of_ones_own_is_described_by_what_it_holds(tmp_path: Path) -> No
     source |= {"commands": "p[0-9]_bar", "positions": ".*_[xz]", "split": {"method": "random", "seed": 3}}
     table, description = tmp_path / "table.parquet", tmp_path / "dataset.json"
     prepare(example, dataset="arm", source=source, table=table, description=description)
-    about = read_json(description)
-    assert about["sha256"] == hashlib.sha256(example.read_bytes()).hexdigest()
-    assert (about["n_commands"], about["n_markers"]) == (3, 2)
-    assert about["rows"] == {"train": 336, "validation": 42, "test": 42, "extrapolation": 180}
-    assert about["constant_coordinates"] == ["m1_z", "m2_z"]
+    written_description = read_json(description)
+    assert written_description["sha256"] == hashlib.sha256(example.read_bytes()).hexdigest()
+    assert (written_description["n_commands"], written_description["n_markers"]) == (3, 2)
+    assert written_description["rows"] == {"train": 336, "validation": 42, "test": 42, "extrapolation": 180}
+    assert written_description["constant_coordinates"] == ["m1_z", "m2_z"]
     written, prepared = pd.read_csv(example), pd.read_parquet(table)
     by = ["u1", "u2", "u3"]
     prepared = prepared.sort_values(by)
     written = written.sort_values(["p1_bar", "p2_bar", "p3_bar"])
     np.testing.assert_array_equal(prepared["m2_y"], written["tip_z"] * 25.4)
-    source["rows"] = about["rows"] | {"train": 300}
-    with pytest.raises(SoftkinError, match="registers 300"):
+    source["rows"] = written_description["rows"] | {"train": 300}
+    with pytest.raises(DataError, match="registers 300"):
         prepare(example, dataset="arm", source=source, table=table, description=description)
 
 
@@ -98,14 +98,14 @@ def test_published_subset_sizes_are_those_of_table_2(dataset: str, tmp_path: Pat
     table, description = tmp_path / "table.parquet", tmp_path / "dataset.json"
     prepare(raw, dataset=dataset, source=source, table=table, description=description)
     printed = pd.read_csv(HOUSE / "config" / "published" / "subsets.csv")
-    about = read_json(description)
+    written_description = read_json(description)
     paper_name = dataset.removesuffix("_2023_09")
     for row in printed[printed["dataset"] == paper_name].itertuples():
         rows = read_subset(table, str(row.subset))
         assert rows.commands.shape == (row.n_rows, row.n_commands)
         assert rows.positions.shape == (row.n_rows, row.n_coordinates)
-        assert about["rows"][row.subset] == row.n_rows
-    assert about["constant_coordinates"] == (["m1_x", "m1_y", "m1_z"] if dataset == "abaqus" else [])
+        assert written_description["rows"][row.subset] == row.n_rows
+    assert written_description["constant_coordinates"] == (["m1_x", "m1_y", "m1_z"] if dataset == "abaqus" else [])
 
 
 def test_rows_that_are_cleaned_away_are_counted(tmp_path: Path) -> None:
@@ -117,8 +117,8 @@ def test_rows_that_are_cleaned_away_are_counted(tmp_path: Path) -> None:
         return {**samples, "train": kept}, {"stuck_rows": 2, "duplicate_rows": 0}
 
     assert run(tmp_path, entry())[1]["removed_from_train"] is None
-    table, about = run(tmp_path, entry(), clean=without_the_first_two)
-    assert about["removed_from_train"] == {"stuck_rows": 2, "duplicate_rows": 0}
-    assert about["rows"] == SIZES | {"train": 28}
-    assert not about["is_cut"]
+    table, written_description = run(tmp_path, entry(), clean=without_the_first_two)
+    assert written_description["removed_from_train"] == {"stuck_rows": 2, "duplicate_rows": 0}
+    assert written_description["rows"] == SIZES | {"train": 28}
+    assert not written_description["is_cut"]
     assert len(read_subset(table, "train")) == 28

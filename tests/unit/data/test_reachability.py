@@ -10,7 +10,7 @@ import pytest
 
 from softkin.core.files import write_json
 from softkin.core.samples import SUBSETS
-from softkin.data.reachability import is_in_reach, stand_in_entry, warning, with_stand_ins
+from softkin.data.reachability import is_reachable, stand_in_entry, warning, with_stand_ins
 from softkin.data.readers import READERS
 
 ROWS = {"train": 20, "validation": 4, "test": 4, "extrapolation": 8}
@@ -46,15 +46,15 @@ def server() -> Iterator[str]:
 
 def test_a_mirror_or_any_url_will_do(server: str, tmp_path: Path) -> None:
     nowhere = ENTRY | {"urls": [f"{server}/gone/FINGER.json", "http://127.0.0.1:9/FINGER.json"]}
-    assert not is_in_reach(nowhere, None)
-    assert not is_in_reach(nowhere, str(tmp_path))
-    assert is_in_reach(ENTRY | {"urls": [*nowhere["urls"], f"{server}/there/FINGER.json"]}, None)
-    assert is_in_reach(nowhere, f"{server}/there")
+    assert not is_reachable(nowhere, None)
+    assert not is_reachable(nowhere, str(tmp_path))
+    assert is_reachable(ENTRY | {"urls": [*nowhere["urls"], f"{server}/there/FINGER.json"]}, None)
+    assert is_reachable(nowhere, f"{server}/there")
     (tmp_path / "FINGER.json").write_text("{}")
-    assert is_in_reach(nowhere, str(tmp_path))
+    assert is_reachable(nowhere, str(tmp_path))
 
 
-def test_what_is_out_of_reach_is_replaced_under_a_name_of_its_own(tmp_path: Path) -> None:
+def test_an_unreachable_dataset_is_replaced_under_a_name_of_its_own(tmp_path: Path) -> None:
     (tmp_path / "retrieved").touch()
     sources = {name: ENTRY | {"urls": []} for name in ("finger", "before", "elsewhere")}
     sources["plain"] = {key: value for key, value in ENTRY.items() if key != "standin"} | {"urls": []}

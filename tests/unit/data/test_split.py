@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from softkin.core.errors import SoftkinError
+from softkin.core.errors import DataError
 from softkin.core.samples import SUBSETS
-from softkin.data.split import EXTRAPOLATION_SHARE, split, standardised_norms, wanted_shares
+from softkin.data.split import EXTRAPOLATION_SHARE, has_standardised_norm, split, standardised_norms, wanted_shares
 
 TRAIN, VALIDATION, TEST, EXTRAPOLATION = range(4)
 
@@ -86,7 +86,7 @@ def test_no_group_and_no_time_straddles_two_subsets(values: list[int], seed: int
     commands = cloud(len(values), seed=seed)
     column = [f"trial {value}" for value in values] if method == "group" else [str(value) for value in values]
     if len(set(values)) < 4:
-        with pytest.raises(SoftkinError, match="mend"):
+        with pytest.raises(DataError, match="\n  fix: "):
             run(commands, column, method=method, column="by", seed=seed)
         return
     subset_of = run(commands, column, method=method, column="by", seed=seed)
@@ -99,9 +99,9 @@ def test_outer_groups_reach_farther_than_all_others() -> None:
     commands, groups = cloud(500), np.arange(500) // 10
     subset_of = run(commands, [str(group) for group in groups], method="group", column="trial")
     norms = standardised_norms(commands)
-    reach = np.array([norms[groups == group].max() for group in range(50)])
+    largest = np.array([norms[groups == group].max() for group in range(50)])
     outer = subset_of[::10] == EXTRAPOLATION
-    assert reach[outer].min() > reach[~outer].max()
+    assert largest[outer].min() > largest[~outer].max()
     assert outer.sum() == 15
 
 
@@ -148,25 +148,25 @@ def test_a_column_may_name_the_subsets(spelt: list[str], names: dict[str, Any] |
     ("attempt", "says"),
     [
         (lambda: run(cloud(5), ["train", "val", "tst", "test", "ext"], method="column", column="part"),
-         ["line 4, column 'part': 'tst' names no subset", "`names`"]),
+         ["line 4, column 'part': 'tst' is the name of no subset", "`names`"]),
         (lambda: run(cloud(3), ["train", "val", "train"], method="column", column="part"),
          ["column 'part': no row of test or extrapolation"]),
         (lambda: run(cloud(4), ["a", "b", " ", "c"], method="group", column="trial"),
          ["line 4, column 'trial': no value", "fill the cell"]),
         (lambda: run(cloud(4), ["1", "2", "soon", "4"], method="time", column="t"),
-         ["line 4, column 't': no time: 'soon'", "numbers (seconds)"]),
+         ["line 4, column 't': 'soon' is no time", "numbers (seconds)"]),
         (lambda: run(cloud(9), ["a", "b", "c"] * 3, method="group", column="trial"),
-         ["3 groups: four subsets need at least four"]),
-        (lambda: run(np.ones((50, 2)), method="random"), ["1 distinct commands", "record more"]),
+         ["column 'trial': 3 groups, but four subsets need at least four"]),
+        (lambda: run(np.ones((50, 2)), method="random"), ["1 distinct command, but", "record more"]),
         (lambda: run([[np.cos(a), np.sin(a)] for a in np.arange(40) * np.pi / 20], method="random"),
-         ["the extrapolation shell is empty: 40 distinct commands"]),
-        (lambda: run(np.repeat(np.eye(2) * 2 - 1, 30, axis=0), method="random"), ["2 distinct commands"]),
+         ["extrapolation would be empty: of 40 distinct commands"]),
+        (lambda: run(np.repeat(np.eye(2) * 2 - 1, 30, axis=0), method="random"), ["2 distinct commands, but"]),
     ],
 )  # fmt: skip
-def test_a_split_that_cannot_be_is_told(attempt: Callable[[], Any], says: list[str]) -> None:
-    with pytest.raises(SoftkinError) as error:
+def test_an_impossible_split_is_an_error(attempt: Callable[[], Any], says: list[str]) -> None:
+    with pytest.raises(DataError) as error:
         attempt()
-    for part in ("mend", *says):
+    for part in ("\n  fix: ", *says):
         assert part in str(error.value)
 
 
@@ -176,3 +176,8 @@ def test_a_coarse_grid_of_commands_is_cut_where_it_comes_nearest() -> None:
     corners = np.abs(np.repeat(grid, 20, axis=0)).sum(axis=1) == 2
     np.testing.assert_array_equal(subset_of == EXTRAPOLATION, corners)
     assert EXTRAPOLATION_SHARE == 0.3
+
+
+def test_the_norm_is_standardised_where_softkin_splits() -> None:
+    assert has_standardised_norm({"format": "table_file", "split": {"method": "random"}})
+    assert not has_standardised_norm({"format": "kinn_json"})

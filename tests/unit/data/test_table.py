@@ -6,7 +6,7 @@ import numpy as np
 import pandera.errors
 import pytest
 
-from softkin.core.errors import SoftkinError
+from softkin.core.errors import DataError
 from softkin.core.samples import SUBSETS, Samples
 from softkin.data.table import content_hash, read_subset, schema, to_table, write_table
 from tests.conftest import bending_arm, four_subsets
@@ -23,7 +23,7 @@ def test_each_subset_comes_back_as_it_went_in(tmp_path: Path) -> None:
 
 def test_an_absent_subset_is_an_error(tmp_path: Path) -> None:
     write_table(to_table({"train": bending_arm(3)}), tmp_path / "table.parquet")
-    with pytest.raises(SoftkinError, match="no rows of subset 'test'"):
+    with pytest.raises(DataError, match="no rows of subset 'test'"):
         read_subset(tmp_path / "table.parquet", "test")
 
 

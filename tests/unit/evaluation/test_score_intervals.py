@@ -7,16 +7,20 @@ import pandas as pd
 import pytest
 
 from softkin.core.bounds import bounds_frame
-from softkin.core.errors import SoftkinError
-from softkin.data.table import read_subset
+from softkin.core.errors import DataError
+from softkin.core.runs import Run
+from softkin.data.table import read_subset, to_table, write_table
 from softkin.evaluation.score_intervals import score_intervals
+from softkin.uncertainty.calibrate import calibrate
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from softkin.uncertainty.intervals.spec import MARGINAL, NO_GUARANTEE
 from softkin.uncertainty.regions import REGION_METHODS
 from softkin.uncertainty.stored_outputs import StoredOutputs
+from tests.conftest import four_subsets
+from tests.unit.uncertainty.conftest import refits_of
 
 LEVELS = [0.8, 0.9]
-RUN = ("gb", "paper")
+RUN = Run("gb", "paper")
 COLUMNS = {
     *("dataset", "subset", "model", "preset", "interval_method", "coordinate", "confidence_level", "coverage"),
     *("coverage_low", "coverage_high", "coverage_p_value", "mean_width_mm", "winkler_mm", "n_calibration", "n_rows"),
@@ -86,18 +90,18 @@ def test_a_row_for_each_coordinate_and_average(metrics: pd.DataFrame) -> None:
 
 
 def test_known_misses_are_scored(metrics: pd.DataFrame) -> None:
-    mine = rows(metrics, interval_method="scp_mapie", subset="test", confidence_level=0.9)
-    assert mine.loc["m1_x", "coverage"] == 0.5
-    assert mine.loc["m1_x", "winkler_mm"] == pytest.approx(4 + 0.5 * 20 * 1)
-    assert mine.loc["m1_y", ["coverage", "winkler_mm"]].tolist() == pytest.approx([1.0, 4.0])
-    assert mine.loc["mean", "coverage"] == pytest.approx((0.5 + 1 + 1) / 3)
-    assert mine.loc["joint", "coverage"] == 0.5
-    assert mine.loc["m1_x", "coverage_p_value"] < mine.loc["m1_y", "coverage_p_value"]
-    assert mine.loc["m1_x", "coverage"] < mine.loc["m1_x", "coverage_low"]
-    assert (mine["coverage_p_value_holm"].dropna() >= mine["coverage_p_value"].dropna()).all()
+    scores = rows(metrics, interval_method="scp_mapie", subset="test", confidence_level=0.9)
+    assert scores.loc["m1_x", "coverage"] == 0.5
+    assert scores.loc["m1_x", "winkler_mm"] == pytest.approx(4 + 0.5 * 20 * 1)
+    assert scores.loc["m1_y", ["coverage", "winkler_mm"]].tolist() == pytest.approx([1.0, 4.0])
+    assert scores.loc["mean", "coverage"] == pytest.approx((0.5 + 1 + 1) / 3)
+    assert scores.loc["joint", "coverage"] == 0.5
+    assert scores.loc["m1_x", "coverage_p_value"] < scores.loc["m1_y", "coverage_p_value"]
+    assert scores.loc["m1_x", "coverage"] < scores.loc["m1_x", "coverage_low"]
+    assert (scores["coverage_p_value_holm"].dropna() >= scores["coverage_p_value"].dropna()).all()
 
 
-def test_outside_the_calibrated_range_nothing_is_promised(metrics: pd.DataFrame) -> None:
+def test_in_extrapolation_nothing_is_guaranteed(metrics: pd.DataFrame) -> None:
     far = rows(metrics, interval_method="scp_mapie", subset="extrapolation", confidence_level=0.9)
     assert set(far["guarantee"]) == {NO_GUARANTEE}
     assert far["coverage_p_value"].isna().all()
@@ -109,11 +113,11 @@ def test_outside_the_calibrated_range_nothing_is_promised(metrics: pd.DataFrame)
 
 
 def test_infinite_intervals_and_crossings_are_counted(metrics: pd.DataFrame) -> None:
-    mine = rows(metrics, interval_method="qr", subset="test", confidence_level=0.9)
-    assert set(mine["infinite_share"]) == {1.0}
-    assert np.isinf(mine.loc["mean", "mean_width_mm"])
-    assert mine.loc[["m1_x", "m1_y", "m1_z"], "crossing_share"].tolist() == [0.0, 0.0, 1.0]
-    assert mine.loc["joint", "crossing_share"] == 1.0
+    scores = rows(metrics, interval_method="qr", subset="test", confidence_level=0.9)
+    assert set(scores["infinite_share"]) == {1.0}
+    assert np.isinf(scores.loc["mean", "mean_width_mm"])
+    assert scores.loc[["m1_x", "m1_y", "m1_z"], "crossing_share"].tolist() == [0.0, 0.0, 1.0]
+    assert scores.loc["joint", "crossing_share"] == 1.0
     assert set(rows(metrics, interval_method="scp_mapie")["crossing_share"]) == {0.0}
 
 
@@ -129,7 +133,7 @@ def test_a_winkler_score_below_twice_the_mean_absolute_error_stops_the_run(
         refits=None,
         confidence_levels=LEVELS,
     )
-    with pytest.raises(SoftkinError, match="below twice the mean absolute error"):
+    with pytest.raises(DataError, match="below twice the mean absolute error") as caught:
         score_intervals(
             table,
             dataset="arm",
@@ -139,4 +143,40 @@ def test_a_winkler_score_below_twice_the_mean_absolute_error_stops_the_run(
             outputs=outputs,
             output=tmp_path / "never.csv",
         )
+    assert caught.value.where == str(tmp_path / "scp_mapie.parquet")
     assert not (tmp_path / "never.csv").exists()
+
+
+def test_calibration_rows_are_those_that_a_method_is_calibrated_on(tmp_path: Path) -> None:
+    """Of `train` where it refits, of `validation` where it does not, none without a guarantee; a distribution has a
+    CRPS.
+    """
+    table, run = tmp_path / "sizes.parquet", Run("mlp", "paper")
+    write_table(to_table(four_subsets({"train": 50, "validation": 30, "test": 20, "extrapolation": 20})), table)
+    predictions = pd.read_parquet(table).drop(columns=["u1", "u2"])
+    predictions.assign(std_m1_x=1.0, std_m1_y=1.0, std_m1_z=1.0).to_parquet(tmp_path / "predictions.parquet")
+    refits_of(table).write(tmp_path / "refits.npz")
+    outputs = StoredOutputs(
+        table,
+        predictions={run: tmp_path / "predictions.parquet"},
+        quantiles={},
+        refits=tmp_path / "refits.npz",
+        confidence_levels=LEVELS,
+    )
+    methods = {name: INTERVAL_METHODS[name] for name in ("cv_plus", "scp_crepes", "cps", "gaussian")}
+    intervals = {name: tmp_path / f"{name}.parquet" for name in methods}
+    calibrate(outputs, methods=methods, in_domain={}, intervals=intervals)
+    score_intervals(
+        table,
+        dataset="arm",
+        methods=methods,
+        intervals=intervals,
+        regions={},
+        outputs=outputs,
+        output=tmp_path / "sizes.csv",
+    )
+    frame = pd.read_csv(tmp_path / "sizes.csv")
+    counts = frame.groupby("interval_method")["n_calibration"].unique().map(list).to_dict()
+    assert counts == {"cv_plus": [50], "scp_crepes": [30], "cps": [30], "gaussian": [0]}
+    has_crps = frame[frame["coordinate"] == "mean"].groupby("interval_method")["crps_mm"].count() > 0
+    assert has_crps.to_dict() == {"cv_plus": False, "scp_crepes": False, "cps": True, "gaussian": True}

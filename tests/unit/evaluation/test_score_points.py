@@ -6,6 +6,7 @@ import pandas as pd
 import pytest
 
 from softkin.core.files import write_json
+from softkin.core.runs import Run
 from softkin.core.samples import SUBSETS
 from softkin.evaluation.score_points import score, score_spaces
 
@@ -19,7 +20,7 @@ def test_a_known_offset_is_scored_in_every_subset(table: Path, tmp_path: Path) -
     names = {"predictions": "predictions.parquet", "fit": "fit.json", "predict": "predict.json"}
     files = {name: str(tmp_path / file) for name, file in names.items()}
     point, markers = tmp_path / "point.csv", tmp_path / "markers.csv"
-    score(table, dataset="arm", runs={("lr", "paper"): files}, point=point, markers=markers)
+    score(table, dataset="arm", runs={Run("lr", "paper"): files}, point=point, markers=markers)
     rows = pd.read_csv(point)
     assert rows["subset"].tolist() == list(SUBSETS)
     assert rows["rmse_mm"].tolist() == pytest.approx([7 / 3] * 4)
@@ -39,9 +40,9 @@ def test_either_target_space_is_scored_and_a_model_without_another_is_left_out(t
     chosen.to_parquet(tmp_path / "chosen.parquet")
     other = truth.assign(**{name: truth[name] + 2.0 for name in coordinates}, model="gp", target_space="cartesian")
     other[other["subset"].isin(("test", "extrapolation"))].to_parquet(tmp_path / "others.parquet")
-    found = {"target_space": "curvature", "shell_mae_mm": 0.5}
-    write_json(tmp_path / "gp.json", found | {"other_space": {"target_space": "cartesian", "shell_mae_mm": 0.75}})
-    write_json(tmp_path / "lr.json", found | {"other_space": None})
+    best = {"target_space": "curvature", "shell_mae_mm": 0.5}
+    write_json(tmp_path / "gp.json", best | {"other_space": {"target_space": "cartesian", "shell_mae_mm": 0.75}})
+    write_json(tmp_path / "lr.json", best | {"other_space": None})
     score_spaces(
         table,
         dataset="arm",

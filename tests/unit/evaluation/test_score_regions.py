@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from softkin.core.runs import Run
 from softkin.core.samples import EXTRAPOLATION, SUBSETS, TEST, TRAIN, VALIDATION, Array
 from softkin.data.table import read_subset
 from softkin.evaluation.score_regions import alarm_rates, region_rows, score_alarms
@@ -45,7 +46,7 @@ def outputs(table: Path, tmp_path: Path) -> StoredOutputs:
     predictions.to_parquet(tmp_path / "predictions.parquet")
     return StoredOutputs(
         table,
-        predictions={("lr", "paper"): tmp_path / "predictions.parquet"},
+        predictions={Run("lr", "paper"): tmp_path / "predictions.parquet"},
         quantiles={},
         refits=None,
         confidence_levels=[0.8, 0.9],

@@ -60,7 +60,7 @@ def results(tmp_path: Path) -> dict[str, Any]:
     pd.DataFrame(rows).to_csv(tmp_path / "point.csv", index=False)
     (tmp_path / "figures").mkdir()
     shown = [("ranking", "svr", "paper", ""), ("ranking", "svr", "tuned", ""), ("tuning_history", "svr", "tuned", "")]
-    shown += [("distribution", "", "", ""), ("intervals_chosen", "svr", "tuned", "scp_mapie")]
+    shown += [("distribution", "", "", ""), ("intervals_deployed", "svr", "tuned", "scp_mapie")]
     index = pd.DataFrame(shown, columns=["figure", "model", "preset", "interval_method"])
     index.assign(title="t").to_csv(tmp_path / "figures" / "index.csv", index=False)
     for name in index["figure"].unique():

@@ -35,7 +35,7 @@ def test_interval_runs_hang_on_their_model_and_are_logged_once(
     assert "test/joint_winkler_mm_90" not in nested[0]["data"]["metrics"]
     client = MlflowClient(campaign.tracking_uri)
     pictures = client.list_artifacts(nested[0]["info"]["run_id"], "figures")
-    assert [picture.path for picture in pictures] == ["figures/intervals_chosen.png"]
+    assert [picture.path for picture in pictures] == ["figures/intervals_deployed.png"]
     log_intervals(
         campaign,
         **interval_files,

@@ -1,101 +1,70 @@
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import joblib
 import numpy as np
-import pandas as pd
 import pytest
 
 from softkin.core.files import read_json
 from softkin.core.samples import SUBSETS, TRAIN, Samples
 from softkin.data.table import read_subset, to_table, write_table
 from softkin.models import MODELS
-from softkin.training.fit import fit, fit_quietly, kinematic_model, some_rows
-from softkin.training.predict import predict
-from tests.conftest import bending_arm, four_subsets
+from softkin.training.fit import fit
+from softkin.training.kinematic_model import FitSettings, fitted_model, recorded_settings
+from tests.conftest import bending_arm
+
+SETTINGS = FitSettings({}, skip_constant=False, seed=0, threads=1)
+PROBE = bending_arm(9, seed=7).commands
 
 
-def run(table: Path, folder: Path, model: str = "lr") -> tuple[pd.DataFrame, dict[str, float]]:
-    spec = MODELS[model]
+def run(
+    table: Path, folder: Path, model: str = "lr", settings: FitSettings = SETTINGS, max_rows: int | None = None
+) -> Path:
+    """Fit, and return the folder of the files."""
+    folder.mkdir(exist_ok=True)
     files = {"model": folder / "model.joblib", "record": folder / "fit.json"}
-    params = {**spec.paper_params}
-    fit(table, spec=spec, params=params, skip_constant=False, seed=0, threads=1, **files)
-    predictions = folder / "predictions.parquet"
-    predict(
-        table,
-        spec=spec,
-        model=files["model"],
-        threads=1,
-        predictions=predictions,
-        record=folder / "predict.json",
-    )
-    return pd.read_parquet(predictions), read_json(folder / "fit.json") | read_json(folder / "predict.json")
+    fit(table, spec=MODELS[model], settings=settings, **files, max_rows=max_rows)
+    return folder
 
 
-def test_every_subset_is_predicted_row_by_row(table: Path, tmp_path: Path) -> None:
-    predictions, record = run(table, tmp_path)
-    assert predictions["subset"].tolist() == pd.read_parquet(table)["subset"].tolist()
+def test_the_stored_model_is_the_one_of_its_settings_on_train(table: Path, tmp_path: Path) -> None:
+    folder = run(table, tmp_path)
+    expected = fitted_model(MODELS["lr"], SETTINGS, read_subset(table, TRAIN))
+    np.testing.assert_array_equal(joblib.load(folder / "model.joblib").predict(PROBE), expected.predict(PROBE))
+
+
+def test_the_record_holds_what_a_refit_needs_and_what_the_fit_took(table: Path, tmp_path: Path) -> None:
+    base = {"origin": [0.0, 0.0, 0.0], "axis": [0.0, 0.0, 1.0]}
+    settings = FitSettings({"degree": 2}, True, seed=0, threads=1, target_space="curvature", base=base)
+    record = read_json(run(table, tmp_path, settings=settings) / "fit.json")
+    assert recorded_settings(record, seed=0, threads=1) == settings
     assert record["n_train"] == 40
+    assert record["solvers_at_iteration_bound"] == 0
     assert record["fit_seconds"] > 0
-    assert record["predict_us_per_row"] > 0
-    model = joblib.load(tmp_path / "model.joblib")
-    for subset in SUBSETS:
-        expected = model.predict(read_subset(table, subset).commands)
-        found = predictions.loc[predictions["subset"] == subset].drop(columns="subset").to_numpy()
-        np.testing.assert_array_equal(found, expected)
+    assert record["fit_cpu_seconds"] > 0
+    bounded = replace(SETTINGS, params={"C": 100.0, "epsilon": 1e-3, "max_iter": 2})
+    assert read_json(run(table, tmp_path, "svr", bounded) / "fit.json")["solvers_at_iteration_bound"] == 3
 
 
 def test_other_subsets_cannot_leak_into_a_fit(table: Path, tmp_path: Path) -> None:
-    """Replace every row outside `train` by garbage: the fitted model stays the same to the bit."""
+    """With every row that is not in `train` replaced by garbage, the fitted model is the same to the bit."""
     subsets = {subset: read_subset(table, subset) for subset in SUBSETS}
     garbage = {s: Samples(1e6 + rows.commands, -1e6 * rows.positions) for s, rows in subsets.items() if s != TRAIN}
     write_table(to_table(subsets | garbage), tmp_path / "garbage.parquet")
-    probe = bending_arm(9, seed=7).commands
     outputs = []
     for place, path in enumerate((table, tmp_path / "garbage.parquet")):
-        (tmp_path / str(place)).mkdir()
-        run(path, tmp_path / str(place), "gb")
-        outputs.append(joblib.load(tmp_path / str(place) / "model.joblib").predict(probe))
+        folder = run(path, tmp_path / str(place), "gb")
+        outputs.append(joblib.load(folder / "model.joblib").predict(PROBE))
     np.testing.assert_array_equal(*outputs)
 
 
-def test_the_unit_of_the_commands_does_not_matter(samples: Samples) -> None:
-    """Commands and positions are standardised inside, on what the model is fitted on."""
-    for model in ("lasso", "svr", "mlp"):
-        predicted = []
-        for factor in (1.0, 1024.0):
-            spec = MODELS[model]
-            estimator = kinematic_model(spec, {**spec.paper_params}, skip_constant=False, seed=0, threads=1)
-            fit_quietly(estimator, Samples(samples.commands * factor, samples.positions), 1)
-            predicted.append(estimator.predict(samples.commands * factor))
-        np.testing.assert_allclose(*predicted, rtol=1e-6)
-
-
-def test_solvers_stopped_at_their_bound_are_counted(samples: Samples) -> None:
-    spec = MODELS["svr"]
-    bounded = {"kernel": "rbf", "C": 100.0, "epsilon": 1e-3, "gamma": 1.0, "max_iter": 2}
-    estimator = kinematic_model(spec, bounded, skip_constant=True, seed=0, threads=1)
-    assert fit_quietly(estimator, samples, 1) == 3
-    free = kinematic_model(spec, {}, skip_constant=True, seed=0, threads=1)
-    assert fit_quietly(free, samples, 1) == 0
-
-
-def test_a_coordinate_that_never_varies_is_predicted_exactly() -> None:
-    rows = four_subsets(dict.fromkeys(SUBSETS, 40), n_commands=3, n_markers=2)[TRAIN]
-    estimator = kinematic_model(MODELS["mlp"], {**MODELS["mlp"].paper_params}, skip_constant=True, seed=0, threads=1)
-    fit_quietly(estimator, rows, 1)
-    np.testing.assert_array_equal(estimator.predict(rows.commands)[:, :3], rows.positions[:, :3])
-
-
-def test_a_model_that_cannot_take_all_rows_gets_some_and_the_log_says_so(caplog: pytest.LogCaptureFixture) -> None:
-    rows = bending_arm(50)
-    kept = some_rows(rows, 20, seed=0)
-    assert len(kept) == 20
-    places = [int(np.flatnonzero((rows.commands == row).all(axis=1))[0]) for row in kept.commands]
-    assert places == sorted(set(places))
-    np.testing.assert_array_equal(rows.positions[places], kept.positions)
-    assert "fitted on 20 of 50 rows: max_fit_rows" in caplog.text
-    caplog.clear()
-    assert some_rows(rows, 50, seed=0) is rows is some_rows(rows, None, seed=0)
-    assert not caplog.text
+def test_a_bound_on_the_rows_is_kept_and_recorded(
+    table: Path, tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    folder = run(table, tmp_path, max_rows=15)
+    assert read_json(folder / "fit.json")["n_train"] == 15
+    assert "fitted on 15 of 40 rows: max_fit_rows" in caplog.text
+    whole = fitted_model(MODELS["lr"], SETTINGS, read_subset(table, TRAIN))
+    assert not np.allclose(joblib.load(folder / "model.joblib").predict(PROBE), whole.predict(PROBE))

@@ -9,8 +9,8 @@ import pytest
 
 from softkin.core.bounds import read_bounds
 from softkin.core.files import read_json
-from softkin.core.samples import SUBSETS, TRAIN, Samples
-from softkin.data.table import read_subset, to_table, write_table
+from softkin.core.samples import Samples
+from softkin.data.table import read_subset
 from softkin.models.quantile import QUANTILE_MODELS
 from softkin.training.fit_quantiles import QuantileModel, fit_quantiles, quantiles_of
 from tests.conftest import bending_arm
@@ -33,8 +33,8 @@ def test_quantiles_hold_about_their_share_of_noise(name: str) -> None:
     rng = np.random.default_rng(0)
     rows = [Samples(rng.uniform(-1, 1, (2000, 2)), rng.standard_normal((2000, 3)) * [1, 10, 100]) for _ in range(2)]
     predicted = model(name, rows[0], [0.9]).predict(rows[1].commands)[0]
-    inside = (predicted[..., 0] <= rows[1].positions) & (rows[1].positions <= predicted[..., 1])
-    assert inside.mean(axis=0) == pytest.approx([0.84] * 3, abs=0.07)
+    held = (predicted[..., 0] <= rows[1].positions) & (rows[1].positions <= predicted[..., 1])
+    assert held.mean(axis=0) == pytest.approx([0.84] * 3, abs=0.07)
     widths = (predicted[..., 1] - predicted[..., 0]).mean(axis=0)
     assert widths / [1, 10, 100] == pytest.approx([3.0] * 3, abs=0.5)  # mm go in and come out
 
@@ -48,18 +48,20 @@ def test_a_constant_coordinate_has_its_constant_as_quantiles(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", QUANTILE_MODELS)
-def test_only_train_is_fitted_on_and_files_round_trip(name: str, table: Path, tmp_path: Path) -> None:
-    subsets = {subset: read_subset(table, subset) for subset in SUBSETS}
-    garbage = {s: Samples(rows.commands, 1e6 - rows.positions) for s, rows in subsets.items() if s != TRAIN}
-    write_table(to_table(subsets | garbage), tmp_path / "garbage.parquet")
+def test_only_train_is_fitted_on_and_files_round_trip(
+    name: str, table: Path, garbage_table: Path, tmp_path: Path
+) -> None:
     outputs = []
-    for place, path in enumerate((table, tmp_path / "garbage.parquet")):
+    for place, path in enumerate((table, garbage_table)):
         folder = tmp_path / str(place)
         files = {"model": folder / "m.joblib", "quantiles": folder / "q.parquet", "record": folder / "r.json"}
-        fit_quantiles(path, spec=QUANTILE_MODELS[name], params={}, confidence_levels=LEVELS, seed=0, threads=1, **files)
+        regressor = QuantileModel(QUANTILE_MODELS[name], {}, LEVELS, seed=0, threads=1)
+        fit_quantiles(path, regressor=regressor, **files)
         outputs.append(pd.read_parquet(files["quantiles"]))
-        assert read_json(files["record"])["fit_seconds"] > 0
+        record = read_json(files["record"])
+        assert record["fit_seconds"] > 0
+        assert record["params"] == {}
     pd.testing.assert_frame_equal(*outputs)
-    stored = joblib.load(tmp_path / "0" / "m.joblib").predict(subsets["test"].commands)
+    stored = joblib.load(tmp_path / "0" / "m.joblib").predict(read_subset(table, "test").commands)
     np.testing.assert_array_equal(read_bounds(outputs[0], "test", LEVELS), stored)
     assert set(outputs[0]["subset"]) == {"validation", "test", "extrapolation"}

@@ -1,74 +1,87 @@
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-import pandas as pd
 import pytest
+from numpy.typing import NDArray
 
 from softkin.core.files import write_json
-from softkin.core.samples import SUBSETS, Samples
+from softkin.core.run_archive import CPU_SECONDS, RunArchive, read_run_archive
+from softkin.core.runs import Run
+from softkin.core.samples import SUBSETS, Array, Samples
+from softkin.core.shells import CommandNorm
 from softkin.data.table import read_subset, to_table, write_table
 from softkin.models import MODELS
-from softkin.training.refit_shells import LEAST_CORE_SHARE, ShellSettings, cores_and_shells, refit_shells
-from softkin.uncertainty.calibration_data import ShellEvidence
-from softkin.uncertainty.stored_outputs import StoredOutputs
+from softkin.training.refit_shells import (
+    CENTRE,
+    LEAST_CORE_SHARE,
+    SCALE,
+    ShellSettings,
+    core_rows,
+    cores_and_shells,
+    refit_shells,
+    shell_rows,
+)
 
-RUN = ("lr", "paper")
-SETTINGS = ShellSettings(core_shares=(0.5, 0.8), max_rows=1000, seed=0)
+RUN = Run("lr", "paper")
+SETTINGS = ShellSettings(core_shares=(0.5, 0.8), max_rows=1000, standardised_norm=False, seed=0, threads=1)
 
 
-def refitted(table: Path, folder: Path, settings: ShellSettings = SETTINGS, **limits: int) -> list[ShellEvidence]:
+def refitted(table: Path, folder: Path, settings: ShellSettings = SETTINGS, **max_fit_rows: int) -> RunArchive:
     write_json(folder / "fit.json", {"params": {}, "skip_constant": False, "target_space": "cartesian", "base": None})
     refit_shells(
         table,
         dataset="arm",
-        standardised=False,
         specs={RUN: MODELS["lr"]},
         records={RUN: folder / "fit.json"},
-        max_fit_rows=limits,
+        max_fit_rows=max_fit_rows,
         settings=settings,
-        threads=1,
         shells=folder / "shells.npz",
     )
-    pd.read_parquet(table).drop(columns=["u1", "u2"]).to_parquet(folder / "predictions.parquet")
-    outputs = StoredOutputs(
-        table,
-        predictions={RUN: folder / "predictions.parquet"},
-        quantiles={},
-        refits=None,
-        confidence_levels=[0.9],
-        shells=folder / "shells.npz",
-    )
-    found: list[Any] = [evidence for run, evidence in outputs.of("shells") if run == RUN]
-    return found
+    return read_run_archive(folder / "shells.npz")
+
+
+def shells_of(archive: RunArchive) -> list[tuple[NDArray[np.intp], NDArray[np.intp], Array]]:
+    """Rows of the core, rows of the shell and predicted positions of each shell, in the order of the archive."""
+    places = [place for run, place in archive.of_runs if run == RUN]
+    return [
+        (archive.shared[core_rows(place)], archive.shared[shell_rows(place)], archive.of_runs[RUN, place])
+        for place in places
+    ]
 
 
 def test_each_core_is_fitted_on_its_rows_and_judged_on_its_shell(table: Path, tmp_path: Path) -> None:
-    (evidence,) = refitted(table, tmp_path)
+    archive = refitted(table, tmp_path)
     train = read_subset(table, "train")
-    sizes = [len(shell.core_commands) for shell in evidence.shells]
+    norms = CommandNorm(archive.shared[CENTRE], archive.shared[SCALE]).of(train.commands)
+    np.testing.assert_allclose(norms, np.linalg.norm(train.commands, axis=1))
+    sizes = [len(core) for core, _, _ in shells_of(archive)]
     assert sizes == sorted(sizes)
     assert {20, 32} <= set(sizes)
-    for shell in evidence.shells:
-        assert evidence.norm(shell.core_commands).max() < evidence.norm(shell.commands).min()
-        core = evidence.norm(train.commands) <= evidence.norm(shell.core_commands).max()
-        np.testing.assert_array_equal(shell.truth, train.positions[~core])
+    for core, shell, predicted in shells_of(archive):
+        assert norms[core].max() < norms[shell].min()
+        in_core = norms <= norms[core].max()
+        np.testing.assert_array_equal(shell, np.flatnonzero(~in_core))
         design = np.column_stack([train.commands, np.ones(len(train))])
-        weights = np.linalg.lstsq(design[core], train.positions[core], rcond=None)[0]
-        np.testing.assert_allclose(shell.predicted, design[~core] @ weights, atol=1e-8)
+        weights = np.linalg.lstsq(design[in_core], train.positions[in_core], rcond=None)[0]
+        np.testing.assert_allclose(predicted, design[~in_core] @ weights, atol=1e-8)
+    assert archive.shared[CPU_SECONDS] > 0
 
 
-def test_positions_outside_train_are_not_read(table: Path, tmp_path: Path) -> None:
-    (honest,) = refitted(table, tmp_path)
-    subsets = {subset: read_subset(table, subset) for subset in SUBSETS}
-    for subset in ("validation", "test", "extrapolation"):
-        subsets[subset] = Samples(subsets[subset].commands, 1e6 - subsets[subset].positions)
-    write_table(to_table(subsets), tmp_path / "garbage.parquet")
-    (same,) = refitted(tmp_path / "garbage.parquet", tmp_path)
-    for one, other in zip(honest.shells, same.shells, strict=True):
-        np.testing.assert_array_equal(one.predicted, other.predicted)
+def test_the_norm_is_that_of_standardised_commands_where_the_dataset_has_that(table: Path, tmp_path: Path) -> None:
+    archive = refitted(table, tmp_path, replace(SETTINGS, standardised_norm=True))
+    commands = read_subset(table, "train").commands
+    np.testing.assert_array_equal(archive.shared[CENTRE], commands.mean(axis=0))
+    np.testing.assert_array_equal(archive.shared[SCALE], commands.std(axis=0))
+
+
+def test_positions_of_other_subsets_are_not_read(table: Path, garbage_table: Path, tmp_path: Path) -> None:
+    honest, same = (shells_of(refitted(path, tmp_path)) for path in (table, garbage_table))
+    assert honest
+    for one, other in zip(honest, same, strict=True):
+        np.testing.assert_array_equal(one[2], other[2])
 
 
 def test_the_matched_core_leaves_as_far_to_go_as_the_new_commands() -> None:
@@ -83,11 +96,16 @@ def test_the_matched_core_leaves_as_far_to_go_as_the_new_commands() -> None:
 
 
 def test_a_large_core_is_fitted_on_some_of_its_rows(table: Path, tmp_path: Path) -> None:
-    (all_rows,) = refitted(table, tmp_path)
-    (some,) = refitted(table, tmp_path, ShellSettings((0.5, 0.8), max_rows=15, seed=0))
-    (fewer,) = refitted(table, tmp_path, lr=15)
-    assert not np.allclose(all_rows.shells[0].predicted, some.shells[0].predicted)
-    np.testing.assert_array_equal(some.shells[0].predicted, fewer.shells[0].predicted)
+    first = [
+        shells_of(archive)[0][2]
+        for archive in (
+            refitted(table, tmp_path),
+            refitted(table, tmp_path, replace(SETTINGS, max_rows=15)),
+            refitted(table, tmp_path, lr=15),
+        )
+    ]
+    assert not np.allclose(first[0], first[1])
+    np.testing.assert_array_equal(first[1], first[2])
 
 
 def test_commands_that_lie_equally_far_out_are_left_out_by_name(
@@ -98,5 +116,5 @@ def test_commands_that_lie_equally_far_out_are_left_out_by_name(
     circle = np.round(np.column_stack([np.cos(angle) > 0, np.cos(angle) <= 0]).astype(float), 1)
     subsets["train"] = Samples(circle, subsets["train"].positions)
     write_table(to_table(subsets), tmp_path / "circle.parquet")
-    assert refitted(tmp_path / "circle.parquet", tmp_path) == []
+    assert refitted(tmp_path / "circle.parquet", tmp_path).of_runs == {}
     assert "arm is left out of the methods on shells" in caplog.text

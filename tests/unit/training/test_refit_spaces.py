@@ -12,13 +12,13 @@ from softkin.models import MODELS
 from softkin.training.refit_spaces import refit_spaces
 from tests.conftest import bending_arm
 
-FOUND = {"target_space": "cartesian", "params": {"degree": 1, "interaction_only": False}, "shell_mae_mm": 1.0}
+BEST = {"target_space": "cartesian", "params": {"degree": 1, "interaction_only": False}, "shell_mae_mm": 1.0}
 BASE = {"origin": [0.0, 0.0, 0.0], "axis": [0.0, 0.0, 1.0]}
 
 
 def refitted(table: Path, folder: Path, others: dict[str, object]) -> pd.DataFrame:
     for model, other in others.items():
-        write_json(folder / f"{model}.json", FOUND | {"other_space": other})
+        write_json(folder / f"{model}.json", BEST | {"other_space": other})
     refit_spaces(
         table,
         specs={model: MODELS[model] for model in others},
@@ -33,27 +33,24 @@ def refitted(table: Path, folder: Path, others: dict[str, object]) -> pd.DataFra
 
 
 def test_a_model_is_fitted_in_the_space_that_was_not_chosen(tmp_path: Path) -> None:
-    """A straight line from commands to arcs is this robot; positions of test are garbage, and nobody reads them."""
+    """This robot is a straight line from commands to arcs; positions of other subsets are garbage and are not read."""
     arms = {subset: bending_arm(80, seed=place) for place, subset in enumerate(SUBSETS)}
     garbage = arms | {s: Samples(arms[s].commands, arms[s].positions + 1e6) for s in ("test", "extrapolation")}
     write_table(to_table(garbage), tmp_path / "table.parquet")
-    other = {"target_space": "curvature", "params": FOUND["params"], "shell_mae_mm": 0.1}
+    other = {"target_space": "curvature", "params": BEST["params"], "shell_mae_mm": 0.1}
     ridge = other | {"params": {"degree": 2, "alpha": 1e-6}}
     frame = refitted(tmp_path / "table.parquet", tmp_path, {"lr": other, "gp": None, "ridge": ridge})
     assert set(zip(frame["model"], frame["target_space"], strict=True)) == {("lr", "curvature"), ("ridge", "curvature")}
     for subset in ("test", "extrapolation"):
-        mine = frame[(frame["model"] == "lr") & (frame["subset"] == subset)]
-        errors = mine[["m1_x", "m1_y", "m1_z"]].to_numpy(np.float64) - arms[subset].positions
+        predicted = frame[(frame["model"] == "lr") & (frame["subset"] == subset)]
+        errors = predicted[["m1_x", "m1_y", "m1_z"]].to_numpy(np.float64) - arms[subset].positions
         assert np.abs(errors).mean() < 0.2
 
 
-def test_a_robot_outside_the_domain_of_the_other_space_is_left_out(tmp_path: Path) -> None:
-    behind = {subset: Samples(rows.commands, -rows.positions * [0, 0, 1]) for subset, rows in _arms().items()}
+def test_a_robot_that_the_other_space_does_not_hold_is_left_out(tmp_path: Path) -> None:
+    arms = {subset: bending_arm(30, seed=place) for place, subset in enumerate(SUBSETS)}
+    behind = {subset: Samples(rows.commands, -rows.positions * [0, 0, 1]) for subset, rows in arms.items()}
     write_table(to_table(behind), tmp_path / "table.parquet")
-    frame = refitted(tmp_path / "table.parquet", tmp_path, {"lr": FOUND | {"target_space": "curvature"}})
+    frame = refitted(tmp_path / "table.parquet", tmp_path, {"lr": BEST | {"target_space": "curvature"}})
     assert frame.empty
     assert len(read_subset(tmp_path / "table.parquet", "train")) == 30
-
-
-def _arms() -> dict[str, Samples]:
-    return {subset: bending_arm(30, seed=place) for place, subset in enumerate(SUBSETS)}

@@ -9,7 +9,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from softkin.core.files import write_json
-from softkin.training.selection import OBJECTIVES, deployed, foretold, on_front, searched_runs, selection
+from softkin.core.runs import Run
+from softkin.models.spec import PAPERS_RUN
+from softkin.training.selection import (
+    OBJECTIVES,
+    deployed,
+    on_front,
+    run_of_choice,
+    runs_with_errors,
+    searched_runs,
+    selection,
+    shell_runs,
+)
 
 
 def runs(*rows: tuple[str, str, float, float], dataset: str = "a") -> pd.DataFrame:
@@ -57,12 +68,12 @@ def test_the_scores_are_read_from_the_files_of_best_parameters(tmp_path: Path) -
     write_json(tmp_path / "c.json", {"target_space": "curvature", "cv_mae_mm": 3.0, "shell_mae_mm": None})
     models = {"lr": "a", "gp": "b", "svr": "c"}
     files = {("d", model, "tuned"): tmp_path / f"{name}.json" for model, name in models.items()}
-    found = searched_runs(files)
-    assert found["shell_mae_mm"].tolist() == pytest.approx([2.0, np.nan, np.inf], nan_ok=True)
-    assert found["target_space"].tolist() == ["curvature", "cartesian", "curvature"]
+    scores = searched_runs(files)
+    assert scores["shell_mae_mm"].tolist() == pytest.approx([2.0, np.nan, np.inf], nan_ok=True)
+    assert scores["target_space"].tolist() == ["curvature", "cartesian", "curvature"]
 
 
-def test_a_score_foretells_the_order_of_the_errors_or_not() -> None:
+def test_a_score_in_the_order_of_the_errors_has_the_rank_correlation_one() -> None:
     pool = runs(("lr", "tuned", 3.0, 1.0), ("gp", "tuned", 2.0, 20.0), ("svr", "tuned", 1.0, 300.0))
     errors = {"lr": 5.0, "gp": 6.0, "svr": 70.0}
     point = pd.DataFrame(
@@ -72,7 +83,48 @@ def test_a_score_foretells_the_order_of_the_errors_or_not() -> None:
             for subset in ("test", "extrapolation")
         ]
     )
-    found = foretold(pool, point)
-    assert found["extrapolation_mae_mm"].tolist() == list(errors.values())
-    assert found["shell_rank_correlation"].tolist() == pytest.approx([1.0] * 3)
-    assert found["cv_rank_correlation"].tolist() == pytest.approx([-1.0] * 3)
+    scored = runs_with_errors(pool, point)
+    assert scored["extrapolation_mae_mm"].tolist() == list(errors.values())
+    assert scored["shell_rank_correlation"].tolist() == pytest.approx([1.0] * 3)
+    assert scored["cv_rank_correlation"].tolist() == pytest.approx([-1.0] * 3)
+
+
+def test_which_runs_no_other_beats_is_marked_dataset_by_dataset() -> None:
+    best, worse, alone = ("lr", "tuned", 1.0, 1.0), ("gp", "tuned", 2.0, 2.0), ("gp", "tuned", 9.0, 9.0)
+    pool = pd.concat([runs(best, worse), runs(alone, dataset="b")], ignore_index=True)
+    subsets = ("test", "extrapolation")
+    point = pd.concat([pool.assign(subset=subset, mae_mm=pool["cv_mae_mm"]) for subset in subsets])
+    scored = runs_with_errors(pool, point)
+    assert scored["on_front"].tolist() == [True, False, True]
+    assert scored["cv_rank_correlation"].tolist() == pytest.approx([1.0, 1.0, np.nan], nan_ok=True)
+
+
+@pytest.fixture
+def best_parameters(tmp_path: Path) -> dict[Run, Path]:
+    """Files of best parameters of three runs."""
+    files = {}
+    for model, scores in {"lr": (0.5, 1.0), "gp": (0.1, 9.0), "svr": (0.1, 9.0)}.items():
+        files[Run(model, "tuned")] = tmp_path / f"{model}.json"
+        best = dict(zip(("cv_mae_mm", "shell_mae_mm"), scores, strict=True))
+        write_json(files[Run(model, "tuned")], best | {"target_space": "cartesian"})
+    return files
+
+
+def test_the_run_of_choice_is_the_one_of_lowest_score_by_the_objective(best_parameters: dict[Run, Path]) -> None:
+    assert run_of_choice(best_parameters, "interpolation") == ("gp", "tuned")
+    assert run_of_choice(best_parameters, "extrapolation") == ("lr", "tuned")
+
+
+def test_the_papers_run_the_chosen_one_and_robust_ones_get_shells(best_parameters: dict[Run, Path]) -> None:
+    pool = [PAPERS_RUN, Run("svr", "outer"), Run("ridge", "outer"), Run("ridge", "tuned"), *best_parameters]
+    chosen = Run("gp", "tuned")
+    shells = shell_runs(pool, best_parameters, "interpolation", ["ridge", "huber"])
+    assert shells == [PAPERS_RUN, chosen, Run("ridge", "outer")]  # there is no run of huber
+    assert shell_runs(pool, best_parameters, "interpolation", []) == [PAPERS_RUN, chosen]
+    assert shell_runs(pool, {}, "interpolation", ["ridge"]) == [PAPERS_RUN, Run("ridge", "outer")]
+    assert shell_runs([chosen], best_parameters, "interpolation", ["ridge"]) == [chosen]
+
+
+def test_a_run_that_is_chosen_and_robust_gets_shells_once(best_parameters: dict[Run, Path]) -> None:
+    outer = {Run(run.model, "outer"): file for run, file in best_parameters.items()}
+    assert shell_runs([PAPERS_RUN, *outer], outer, "extrapolation", ["lr"]) == [PAPERS_RUN, Run("lr", "outer")]

@@ -1,24 +1,42 @@
 from __future__ import annotations
 
+import inspect
 import os
 import random
 import signal
 import subprocess
 import sys
 import time
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from optuna.trial import Trial
 
+from softkin.core.errors import DataError
 from softkin.core.files import read_json
+from softkin.core.imported_code import imported_code
 from softkin.core.runs import TUNED
-from softkin.models import MODELS, source_files
-from softkin.training.study import KEPT_PERCENT, STARTUP_TRIALS, TuningResult, TuningSettings, bounded_rows, fingerprint
+from softkin.core.samples import Params
+from softkin.models import MODELS
+from softkin.training.study import (
+    KEPT_PERCENT,
+    STARTUP_TRIALS,
+    Search,
+    StudyFile,
+    TuningResult,
+    TuningSettings,
+    bounded_rows,
+    fingerprint,
+    record,
+    run_study,
+)
 from softkin.training.tune import Robot, SearchSettings, tune_model
 from tests.conftest import bending_arm
 
@@ -26,16 +44,15 @@ SETTINGS = TuningSettings(n_trials=8, n_folds=3, max_rows=60, seed=3)
 TIMES = ["seconds", "cpu_seconds"]
 
 
-def study(path: Path, model: str = "lasso", given: TuningSettings = SETTINGS) -> TuningResult:
+def study(path: Path, model: str = "lasso", tuning: TuningSettings = SETTINGS) -> TuningResult:
     result, _ = tune_model(
         bending_arm(90),
         spec=MODELS[model],
         preset=TUNED,
         robot=Robot(base=None, standardised_norm=False),
-        settings=given,
-        search=SearchSettings({TUNED: given.n_trials}, [TUNED], 2, [0.7], ["cartesian"]),
-        study_file=path,
-        code=source_files(model),
+        settings=tuning,
+        search=SearchSettings({TUNED: tuning.n_trials}, [TUNED], 2, [0.7], ["cartesian"]),
+        file=StudyFile(path, imported_code(inspect.getfile(MODELS[model].build))),
         threads=1,
     )
     return result
@@ -56,13 +73,13 @@ def test_rows_of_a_trial_are_bounded_distinct_and_in_order(max_rows: int) -> Non
 
 
 def test_the_number_of_trials_is_a_total_and_a_longer_study_continues(tmp_path: Path) -> None:
-    short = study(tmp_path / "a.db", given=replace(SETTINGS, n_trials=5))
-    again = study(tmp_path / "a.db", given=replace(SETTINGS, n_trials=5))
+    short = study(tmp_path / "a.db", tuning=replace(SETTINGS, n_trials=5))
+    again = study(tmp_path / "a.db", tuning=replace(SETTINGS, n_trials=5))
     pd.testing.assert_frame_equal(short.trials, again.trials)
     longer = study(tmp_path / "a.db")
     assert len(longer.trials) == 8
     pd.testing.assert_frame_equal(untimed(longer.trials), untimed(study(tmp_path / "b.db").trials))
-    shorter = study(tmp_path / "a.db", given=replace(SETTINGS, n_trials=5))
+    shorter = study(tmp_path / "a.db", tuning=replace(SETTINGS, n_trials=5))
     pd.testing.assert_frame_equal(shorter.trials, short.trials, check_dtype=False)
 
 
@@ -75,7 +92,7 @@ def test_a_study_belongs_to_its_fingerprint(tmp_path: Path) -> None:
         fingerprint(spec.name, bending_arm(61), SETTINGS, [code]),
         fingerprint("lasso", rows, SETTINGS, [code]),
         *(
-            fingerprint(spec.name, rows, replace(SETTINGS, **{key: 7}), [code])  # type: ignore[arg-type]
+            fingerprint(spec.name, rows, replace(SETTINGS, **{key: 7}), [code])
             for key in ("n_folds", "max_rows", "seed")
         ),
     ]
@@ -87,9 +104,55 @@ def test_a_study_belongs_to_its_fingerprint(tmp_path: Path) -> None:
 
 def test_another_seed_starts_a_new_study(tmp_path: Path) -> None:
     study(tmp_path / "a.db")
-    other = study(tmp_path / "a.db", given=replace(SETTINGS, seed=4))
-    fresh = study(tmp_path / "b.db", given=replace(SETTINGS, seed=4))
+    other = study(tmp_path / "a.db", tuning=replace(SETTINGS, seed=4))
+    fresh = study(tmp_path / "b.db", tuning=replace(SETTINGS, seed=4))
     pd.testing.assert_frame_equal(untimed(other.trials), untimed(fresh.trials))
+
+
+def parabola(*, first_trials: tuple[Mapping[str, Any], ...] = (), worst: float = 10.0) -> Search:
+    """Two parts with the error (x - 1)^2 each; infinite from x = `worst` on."""
+
+    def space(trial: Trial) -> Params:
+        return {"x": trial.suggest_float("x", -10.0, 10.0)}
+
+    def errors_of(params: Params) -> Iterator[float]:
+        for _ in range(2):
+            yield (params["x"] - 1.0) ** 2 if params["x"] < worst else float("inf")
+
+    return Search("parabola", space, first_trials, errors_of, n_parts=2)
+
+
+def test_the_first_trials_come_first_and_the_best_complete_one_wins(tmp_path: Path) -> None:
+    starts = ({"x": -3.0}, {"x": 1.5}, {"x": 4.0})
+    search = parabola(first_trials=starts)
+    file = StudyFile(tmp_path / "a.db", [])
+    result = run_study(bending_arm(20), search=search, settings=replace(SETTINGS, n_trials=3), file=file)
+    assert result.trials["param_x"].tolist() == [-3.0, 1.5, 4.0]
+    assert (result.params, result.score_mm) == ({"x": 1.5}, 0.25)
+    assert [score for _, score in result.complete] == [0.25, 9.0, 16.0]
+    longer = run_study(bending_arm(20), search=search, settings=SETTINGS, file=file)
+    assert longer.score_mm <= 0.25
+    assert longer.fingerprint == result.fingerprint
+
+
+def test_a_trial_of_infinite_error_is_pruned_and_has_no_score(tmp_path: Path) -> None:
+    search = parabola(first_trials=({"x": 0.0}, {"x": 9.0}), worst=5.0)
+    file = StudyFile(tmp_path / "a.db", [])
+    result = run_study(bending_arm(20), search=search, settings=replace(SETTINGS, n_trials=2), file=file)
+    assert result.trials["state"].tolist() == ["COMPLETE", "PRUNED"]
+    assert result.trials["score_mm"].tolist() == pytest.approx([1.0, np.nan], nan_ok=True)
+    assert result.trials["n_parts_scored"].tolist() == [2, 1]
+    kept = record(result)
+    assert (kept["n_trials"], kept["n_pruned"], kept["fingerprint"]) == (2, 1, result.fingerprint)
+    assert kept["cpu_seconds"] >= 0
+
+
+def test_a_study_without_any_score_is_an_error_that_names_its_file(tmp_path: Path) -> None:
+    file = StudyFile(tmp_path / "a.db", [])
+    with pytest.raises(DataError, match="none of 2 trials could be scored") as caught:
+        run_study(bending_arm(20), search=parabola(worst=-10.0), settings=replace(SETTINGS, n_trials=2), file=file)
+    assert caught.value.where == str(tmp_path / "a.db")
+    assert caught.value.fix
 
 
 def test_the_best_trial_is_a_whole_cross_validation(tmp_path: Path) -> None:
@@ -112,8 +175,8 @@ def test_the_best_trial_is_a_whole_cross_validation(tmp_path: Path) -> None:
 WORKER = """
 import sys
 from pathlib import Path
-from tests.unit.test_tuning import SETTINGS, study
-from softkin.files import write_json
+from tests.unit.training.test_study import SETTINGS, study
+from softkin.core.files import write_json
 result = study(Path(sys.argv[1]), sys.argv[2])
 result.trials.to_csv(sys.argv[3], index=False)
 write_json(sys.argv[3] + ".best", {"params": result.params, "score": result.score_mm})
@@ -122,7 +185,7 @@ write_json(sys.argv[3] + ".best", {"params": result.params, "score": result.scor
 
 def worker(folder: Path, name: str, model: str) -> subprocess.Popen[bytes]:
     command = [sys.executable, "-c", WORKER, str(folder / f"{name}.db"), model, str(folder / f"{name}.csv")]
-    root = Path(__file__).parents[2]
+    root = Path(__file__).parents[3]
     return subprocess.Popen(command, cwd=root, env={**os.environ, "PYTHONPATH": str(root)}, stderr=subprocess.DEVNULL)
 
 

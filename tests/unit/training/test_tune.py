@@ -2,6 +2,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -9,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from softkin.core.errors import SoftkinError
+from softkin.core.errors import DataError
 from softkin.core.files import read_json
 from softkin.core.folds import grouped_folds
 from softkin.core.runs import OUTER, TUNED
@@ -17,16 +18,25 @@ from softkin.core.samples import Samples
 from softkin.data.table import to_table, write_table
 from softkin.models import MODELS
 from softkin.training.selection import OBJECTIVES, deployed, searched_runs, selection
-from softkin.training.study import TuningSettings
-from softkin.training.tune import Robot, SearchSettings, part_errors, possible_spaces, some_markers, tune_table
+from softkin.training.study import TuningResult, TuningSettings
+from softkin.training.tune import (
+    PresetFiles,
+    Robot,
+    SearchSettings,
+    other_space,
+    part_errors,
+    possible_spaces,
+    some_markers,
+    tune_table,
+)
 from tests.conftest import bending_arm
 
 ROBOT = Robot(base=None, standardised_norm=False)
 SPACES = ["cartesian", "curvature"]
 
 
-def test_repeated_commands_do_not_flatter_a_memorising_model() -> None:
-    """40 copies of each command, as in the paper's ELASTICA: an ungrouped fold would report no error at all."""
+def test_copies_of_a_command_do_not_lower_the_error_of_a_model_that_memorises() -> None:
+    """40 copies of each command, as in the paper's ELASTICA: ungrouped folds would report no error at all."""
     few = bending_arm(15)
     rows = replace(few, commands=np.tile(few.commands, (40, 1)), positions=np.tile(few.positions, (40, 1)))
     folds = grouped_folds(rows.commands, 3, 0)
@@ -45,41 +55,38 @@ def test_a_study_sees_some_markers_the_last_and_all_that_never_move(max_markers:
 
 
 def two_link_arm(n: int, seed: int = 0) -> Samples:
-    """Rigid links of 100 and 80 mm in a plane, the joint angles as commands: it reaches behind its base."""
+    """Rigid links of 100 and 80 mm in a plane, the joint angles as commands; some positions lie behind the base."""
     commands = np.random.default_rng(seed).uniform(-2.4, 2.4, (n, 2))
     first, second = commands[:, 0], commands.sum(axis=1)
     x, y = 100 * np.cos(first) + 80 * np.cos(second), 100 * np.sin(first) + 80 * np.sin(second)
     return Samples(commands, np.column_stack([x, y, np.zeros(n)]))
 
 
-def found(samples: Samples, model: str, folder: Path, n_trials: int = 8) -> dict[str, dict[str, object]]:
-    """What the studies of both presets find, by preset."""
+def tuned(samples: Samples, model: str, folder: Path, n_trials: int = 8) -> dict[str, dict[str, Any]]:
+    """The best parameters of the studies of both presets, by preset."""
     table = folder / "table.parquet"
     write_table(to_table(dict.fromkeys(("train", "validation", "test", "extrapolation"), samples)), table)
     presets = (TUNED, OUTER)
-    files = {name: {p: folder / f"{p}.{name}" for p in presets} for name in ("db", "json", "csv")}
+    files = {p: PresetFiles(folder / f"{p}.db", folder / f"{p}.json", folder / f"{p}.csv") for p in presets}
     tune_table(
         table,
         spec=MODELS[model],
         robot=ROBOT,
         settings=TuningSettings(n_trials=n_trials, n_folds=4, max_rows=400, seed=0),
         search=SearchSettings(dict.fromkeys(presets, n_trials), presets, 3, [0.5, 0.75], SPACES),
-        studies=files["db"],
+        files=files,
         code=[],
         threads=1,
-        parameters=files["json"],
-        trials=files["csv"],
     )
     for preset in presets:
-        assert len(pd.read_csv(files["csv"][preset])) == n_trials
-    return {preset: read_json(files["json"][preset]) for preset in presets}
+        assert len(pd.read_csv(files[preset].trials)) == n_trials
+    return {preset: read_json(files[preset].parameters) for preset in presets}
 
 
-def test_an_arm_that_bends_in_arcs_is_given_curvature_coordinates(tmp_path: Path) -> None:
-    by_preset = found(bending_arm(120, n_markers=2), "lr", tmp_path)
+def test_an_arm_that_bends_in_arcs_gets_curvature_coordinates(tmp_path: Path) -> None:
+    by_preset = tuned(bending_arm(120, n_markers=2), "lr", tmp_path)
     assert by_preset[OUTER]["target_space"] == "curvature"
     other = by_preset[OUTER]["other_space"]
-    assert isinstance(other, dict)
     assert other["target_space"] == "cartesian"
     assert other["shell_mae_mm"] >= by_preset[OUTER]["shell_mae_mm"]
     assert set(other["params"]) == set(by_preset[OUTER]["params"])
@@ -92,18 +99,18 @@ def test_an_arm_that_bends_in_arcs_is_given_curvature_coordinates(tmp_path: Path
 
 
 @pytest.mark.parametrize("objective", OBJECTIVES)
-def test_a_rigid_arm_of_two_links_is_given_positions(objective: str, two_links: pd.DataFrame) -> None:
-    """Not by every model: a poor one may be less poor in arcs. By the one that is chosen."""
+def test_a_rigid_arm_of_two_links_gets_positions(objective: str, two_links: pd.DataFrame) -> None:
+    """By the run that is chosen; a poor model may be less poor in arcs."""
     chosen = deployed(selection(two_links, objective)).iloc[0]
     assert (chosen["model"], chosen["target_space"]) == ("gp", "cartesian")
 
 
 @pytest.fixture(scope="module")
 def two_links(tmp_path_factory: pytest.TempPathFactory) -> pd.DataFrame:
-    files = {}
+    files: dict[tuple[str, str, str], str | Path] = {}
     for model in ("gp", "ridge"):
         folder = tmp_path_factory.mktemp(model)
-        found(two_link_arm(300), model, folder)
+        tuned(two_link_arm(300), model, folder)
         files |= {("arm", model, preset): folder / f"{preset}.json" for preset in (TUNED, OUTER)}
     return searched_runs(files)
 
@@ -112,5 +119,28 @@ def test_a_space_that_does_not_hold_the_robot_is_left_out_and_an_empty_choice_is
     behind = Samples(np.arange(4.0)[:, None], np.array([[0.0, 0.0, -z] for z in (5.0, 6.0, 7.0, 8.0)]))
     declared = replace(ROBOT, base={"origin": [0.0, 0.0, 0.0], "axis": [0.0, 0.0, 1.0]})
     assert possible_spaces(behind, SPACES, declared) == ["cartesian"]
-    with pytest.raises(SoftkinError, match=r"4 positions lie at the base or straight behind it.*declare `base`"):
+    with pytest.raises(DataError, match=r"(?s)4 positions lie at the base or straight behind it.*declare `base`"):
         possible_spaces(behind, ["curvature"], declared)
+
+
+def test_a_part_that_the_target_space_does_not_hold_has_an_infinite_error_and_is_the_last() -> None:
+    rows = bending_arm(40)
+    behind = rows.positions.copy()
+    behind[5] *= [0.0, 0.0, -1.0]
+    samples = Samples(rows.commands, behind)
+    parts = [(np.arange(10, 40), np.arange(10)), (np.arange(30), np.arange(30, 40)), (np.arange(10, 40), np.arange(10))]
+    robot = Robot(base={"origin": [0.0, 0.0, 0.0], "axis": [0.0, 0.0, 1.0]}, standardised_norm=False)
+    errors = list(part_errors(MODELS["lr"], {"degree": 1, "target_space": "curvature"}, samples, parts, robot, 0, 1))
+    assert len(errors) == 2
+    assert np.isfinite(errors[0])
+    assert errors[1] == np.inf
+    assert len(list(part_errors(MODELS["lr"], {"target_space": "cartesian"}, samples, parts, robot, 0, 1))) == 3
+
+
+def test_the_other_space_is_that_of_the_best_trial_in_another_one() -> None:
+    trials = [({"target_space": space, "degree": degree}, score) for space, degree, score in (
+        ("curvature", 1, 0.1), ("curvature", 2, 0.2), ("cartesian", 3, 0.3), ("cartesian", 1, 0.4)
+    )]  # fmt: skip
+    result = TuningResult(*trials[0], pd.DataFrame(), "", trials)
+    assert other_space(result) == {"target_space": "cartesian", "params": {"degree": 3}, "shell_mae_mm": 0.3}
+    assert other_space(replace(result, complete=trials[:2])) is None

@@ -7,52 +7,51 @@ import pandas as pd
 import pytest
 
 from softkin.core.bounds import bounds_frame
-from softkin.core.errors import SoftkinError
-from softkin.core.files import write_json
-from softkin.core.samples import SUBSETS, Samples
+from softkin.core.errors import ConfigError
+from softkin.core.run_archive import RunArchive
+from softkin.core.runs import Run
+from softkin.core.samples import SUBSETS
 from softkin.data.table import read_subset, to_table, write_table
-from softkin.training.selection import run_of_choice
-from softkin.uncertainty.choose import choose, deployed_choice, parts, shown_runs
+from softkin.uncertainty.calibration_data import SpreadCalibration
+from softkin.uncertainty.choose import Resplittable, choose, deployed_choice, nearest_level, resplits, shown_runs
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from softkin.uncertainty.stored_outputs import StoredOutputs
 from tests.conftest import bending_arm
-from tests.unit.intervals.test_engines import quantile_evidence, spread_evidence
+from tests.unit.uncertainty.conftest import garbled, quantile_calibration, spread_calibration
+
+GP, GB, LR = Run("gp", "tuned"), Run("gb", "paper"), Run("lr", "tuned")
 
 
-def test_the_run_is_the_one_of_lowest_score_by_the_objective(tmp_path: Path) -> None:
-    files = {}
-    for model, scores in {"lr": (0.5, 1.0), "gp": (0.1, 9.0), "svr": (0.1, 9.0)}.items():
-        files[model, "tuned"] = tmp_path / f"{model}.json"
-        found = dict(zip(("cv_mae_mm", "shell_mae_mm"), scores, strict=True))
-        write_json(files[model, "tuned"], found | {"target_space": "cartesian"})
-    assert run_of_choice(files, "interpolation") == ("gp", "tuned")
-    assert run_of_choice(files, "extrapolation") == ("lr", "tuned")
+def test_methods_are_compared_at_the_level_nearest_to_the_papers() -> None:
+    assert nearest_level([0.5, 0.88, 0.95]) == 0.88
+    assert nearest_level([0.8, 0.9, 0.95]) == 0.9
 
 
-def test_calibration_rows_are_split_and_never_judged_by_themselves() -> None:
-    for evidence in (spread_evidence(50), quantile_evidence(50)):
-        axis = 0 if evidence.calibration.ndim == 2 else 1
-        seen = []
-        for part, outside in parts(evidence, 0):
-            inside = np.setdiff1d(np.arange(50), outside)
-            np.testing.assert_array_equal(part.calibration, evidence.calibration.take(inside, axis))
-            np.testing.assert_array_equal(part.new, evidence.calibration.take(outside, axis))
-            np.testing.assert_array_equal(part.truth, evidence.truth[inside])
-            if evidence.calibration_spread is not None and part.new_spread is not None:
-                np.testing.assert_array_equal(part.new_spread, evidence.calibration_spread[outside])
-            seen += outside.tolist()
-        assert sorted(seen) == list(range(50))
+@pytest.mark.parametrize("data", [spread_calibration(50), quantile_calibration(50)])
+def test_calibration_rows_are_split_and_never_scored_by_themselves(data: Resplittable) -> None:
+    axis = 0 if data.calibration.ndim == 2 else 1
+    seen: list[int] = []
+    for part, held_out in resplits(data, 0):
+        kept = np.setdiff1d(np.arange(50), held_out)
+        np.testing.assert_array_equal(part.calibration, data.calibration.take(kept, axis))
+        np.testing.assert_array_equal(part.new, data.calibration.take(held_out, axis))
+        np.testing.assert_array_equal(part.truth, data.truth[kept])
+        if isinstance(data, SpreadCalibration):
+            assert isinstance(part, SpreadCalibration)
+            np.testing.assert_array_equal(part.new_spread, data.calibration_spread[held_out])
+        seen += held_out.tolist()
+    assert sorted(seen) == list(range(50))
 
 
-def test_what_is_deployed_is_around_a_model_and_has_another_method_outside_where_there_are_shells(
-    tmp_path: Path,
-) -> None:
+@pytest.fixture
+def noisy(tmp_path: Path) -> Path:
+    """Folder of a table, predictions off by a mm, far better quantiles, and a shell of the run `GP`."""
     rng = np.random.default_rng(0)
     subsets = {subset: bending_arm(120, seed=place) for place, subset in enumerate(SUBSETS)}
     write_table(to_table(subsets), tmp_path / "t.parquet")
-    stored = to_table(subsets).drop(columns=["u1", "u2"])
-    stored.iloc[:, 1:] += rng.standard_normal((len(stored), 3))
-    stored.to_parquet(tmp_path / "p.parquet")
+    predictions = to_table(subsets).drop(columns=["u1", "u2"])
+    predictions.iloc[:, 1:] += rng.standard_normal((len(predictions), 3))
+    predictions.to_parquet(tmp_path / "p.parquet")
     quantiles = [
         bounds_frame(np.stack([rows.positions - half, rows.positions + half], axis=-1), subset, level)
         for subset, rows in subsets.items()
@@ -61,55 +60,81 @@ def test_what_is_deployed_is_around_a_model_and_has_another_method_outside_where
     ]
     pd.concat(quantiles).to_parquet(tmp_path / "q.parquet")
     rows = np.arange(60)
-    shells = {"core_0": rows, "shell_0": rows + 60, "gp/tuned/0": subsets["train"].positions[60:]}
-    np.savez(tmp_path / "s.npz", **shells, centre=np.zeros(2), scale=np.ones(2))
+    shared = {"core_0": rows, "shell_0": rows + 60, "centre": np.zeros(2), "scale": np.ones(2)}
+    RunArchive(shared, {(GP, "0"): subsets["train"].positions[60:]}).write(tmp_path / "s.npz")
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    ("regime", "run", "in_extrapolation"),
+    [
+        ("auto", GP, "auto"),
+        ("in_domain", GP, "scp_mapie"),
+        ("auto", LR, "scp_mapie"),  # nothing of this run was fitted on a core
+    ],
+)
+def test_what_is_deployed_is_around_a_model_and_has_another_method_in_extrapolation_where_there_are_shells(
+    noisy: Path, regime: str, run: Run, in_extrapolation: str
+) -> None:
+    outputs = StoredOutputs(
+        noisy / "t.parquet",
+        predictions={run: noisy / "p.parquet"},
+        quantiles={GB: noisy / "q.parquet"},
+        refits=None,
+        confidence_levels=[0.8, 0.9],
+        shells=noisy / "s.npz" if run == GP else None,
+    )
     methods = {name: INTERVAL_METHODS[name] for name in ("scp_mapie", "cqr", "auto")}
-    for regime, run, outside in (
-        ("auto", ("gp", "tuned"), "auto"),
-        ("inside", ("gp", "tuned"), "scp_mapie"),
-        ("auto", ("lr", "tuned"), "scp_mapie"),  # nothing of this run was fitted on a core
-    ):
-        outputs = StoredOutputs(
-            tmp_path / "t.parquet",
-            predictions={run: tmp_path / "p.parquet"},
-            quantiles={("gb", "paper"): tmp_path / "q.parquet"},
-            refits=None,
-            confidence_levels=[0.8, 0.9],
-            shells=tmp_path / "s.npz" if run[0] == "gp" else None,
-        )
-        choose(outputs, methods=methods, runs=[run], seed=0, regime=regime, choice=tmp_path / "c.csv")
-        best = pd.read_csv(tmp_path / "c.csv").iloc[0]
-        assert (best["interval_method"], best["chosen"], best["deployed"]) == ("cqr", True, False)
-        mine = deployed_choice(tmp_path / "c.csv")
-        assert mine is not None
-        assert (mine["model"], mine["interval_method"], mine["outside"]) == (run[0], "scp_mapie", outside)
+    choose(outputs, methods=methods, runs=[run], seed=0, regime=regime, choice=noisy / "c.csv")
+    best = pd.read_csv(noisy / "c.csv").iloc[0]
+    assert (best["interval_method"], best["chosen"], best["deployed"]) == ("cqr", True, False)
+    deployed = deployed_choice(noisy / "c.csv")
+    assert deployed is not None
+    assert (deployed["model"], deployed["interval_method"]) == (run.model, "scp_mapie")
+    assert deployed["outside"] == in_extrapolation
 
 
-def test_errors_that_grow_with_the_spread_choose_the_normalised_method(tmp_path: Path) -> None:
-    """And nothing of `test` is looked at: its truth is garbage."""
+def test_where_only_quantile_regressors_are_candidates_nothing_is_deployed(noisy: Path) -> None:
+    outputs = StoredOutputs(
+        noisy / "t.parquet",
+        predictions={},
+        quantiles={GB: noisy / "q.parquet"},
+        refits=None,
+        confidence_levels=[0.8, 0.9],
+    )
+    methods = {"cqr": INTERVAL_METHODS["cqr"]}
+    choose(outputs, methods=methods, runs=[GP], seed=0, regime="auto", choice=noisy / "c.csv")
+    assert deployed_choice(noisy / "c.csv") is None
+
+
+@pytest.fixture
+def heteroscedastic(tmp_path: Path) -> Path:
+    """Folder of a table and of predictions whose errors are as large as their spread says, 0.01 or 1 mm."""
     rng = np.random.default_rng(0)
     subsets = {subset: bending_arm(300, seed=place) for place, subset in enumerate(SUBSETS)}
-    stored = to_table(subsets).drop(columns=["u1", "u2"])
+    predictions = to_table(subsets).drop(columns=["u1", "u2"])
     for coordinate in ("m1_x", "m1_y", "m1_z"):
-        stored[f"std_{coordinate}"] = rng.choice([0.01, 1.0], len(stored))
-        stored[coordinate] += stored[f"std_{coordinate}"] * rng.standard_normal(len(stored))
-    stored.to_parquet(tmp_path / "p.parquet")
+        predictions[f"std_{coordinate}"] = rng.choice([0.01, 1.0], len(predictions))
+        predictions[coordinate] += predictions[f"std_{coordinate}"] * rng.standard_normal(len(predictions))
+    predictions.to_parquet(tmp_path / "p.parquet")
+    write_table(to_table(subsets), tmp_path / "t.parquet")
+    return tmp_path
+
+
+def outputs_of(table: Path) -> StoredOutputs:
+    predictions = table.parent / "p.parquet"
+    return StoredOutputs(
+        table, predictions={GP: predictions, GB: predictions}, quantiles={}, refits=None, confidence_levels=[0.8, 0.9]
+    )
+
+
+def test_errors_that_grow_with_the_spread_choose_the_normalised_method(heteroscedastic: Path) -> None:
+    """And nothing of `test` is looked at: its truth is garbage."""
+    garbage = garbled(heteroscedastic / "t.parquet", ("test", "extrapolation"), heteroscedastic / "garbage.parquet")
     choices = []
-    for place, garbage in enumerate((False, True)):
-        rows = dict(subsets)
-        if garbage:
-            rows |= {s: Samples(r.commands, 1e6 + r.positions) for s, r in subsets.items() if "t" in s and s != "train"}
-            rows["validation"] = subsets["validation"]
-        write_table(to_table(rows), tmp_path / "t.parquet")
-        outputs = StoredOutputs(
-            tmp_path / "t.parquet",
-            predictions={("gp", "tuned"): tmp_path / "p.parquet", ("gb", "paper"): tmp_path / "p.parquet"},
-            quantiles={},
-            refits=None,
-            confidence_levels=[0.8, 0.9],
-        )
-        out = tmp_path / f"{place}.csv"
-        choose(outputs, methods=INTERVAL_METHODS, runs=[("gp", "tuned")], seed=0, regime="inside", choice=out)
+    for table in (heteroscedastic / "t.parquet", garbage):
+        out = table.with_suffix(".csv")
+        choose(outputs_of(table), methods=INTERVAL_METHODS, runs=[GP], seed=0, regime="in_domain", choice=out)
         choices.append(pd.read_csv(out))
     pd.testing.assert_frame_equal(*choices)
     best = choices[0].iloc[0]
@@ -119,8 +144,14 @@ def test_errors_that_grow_with_the_spread_choose_the_normalised_method(tmp_path:
     assert (choices[0]["outside"] == choices[0]["interval_method"]).all()
     assert choices[0]["cv_winkler_mm"].is_monotonic_increasing
     assert not {"gaussian", "qr", "cv_plus"} & set(choices[0]["interval_method"])
-    only = {"gaussian": INTERVAL_METHODS["gaussian"]}
-    with pytest.raises(SoftkinError, match="add scp_mapie"):
-        choose(outputs, methods=only, runs=[("gp", "tuned")], seed=0, regime="inside", choice=tmp_path / "never.csv")
-    assert read_subset(tmp_path / "t.parquet", "test").positions.min() > 1e5
-    assert shown_runs(tmp_path / "0.csv") == {("gb", "paper"), ("gp", "tuned")}
+    assert read_subset(garbage, "test").positions.min() > 1e5
+    assert shown_runs(heteroscedastic / "t.csv") == {GB, GP}
+
+
+def test_without_a_calibrated_method_there_is_nothing_to_choose(heteroscedastic: Path) -> None:
+    only, never = {"gaussian": INTERVAL_METHODS["gaussian"]}, heteroscedastic / "never.csv"
+    outputs = outputs_of(heteroscedastic / "t.parquet")
+    with pytest.raises(ConfigError, match="add scp_mapie") as caught:
+        choose(outputs, methods=only, runs=[GP], seed=0, regime="in_domain", choice=never)
+    assert caught.value.where == "interval_methods"
+    assert not never.exists()

@@ -1,4 +1,4 @@
-"""A run's state in words: the lines of the screen, and the one line that a log gets for a job."""
+"""Write the state of a run in words: the lines of the screen, and the one line that a log gets for a job."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ BAR = 30
 
 
 def time_left(remaining: Remaining) -> str:
-    """'about 14 min left', 'roughly 3 min left', 'no estimate yet'."""
+    """The estimate in words: 'about 14 min left', 'roughly 3 min left', 'no estimate yet'."""
     seconds = remaining.seconds
     if seconds is None or (remaining.is_rough and seconds < 30):
         return "no estimate yet"
@@ -17,7 +17,7 @@ def time_left(remaining: Remaining) -> str:
 
 
 def heading(progress: Progress, now: float) -> str:
-    """'63 of 197 jobs · 4 min 12 s used · about 14 min left'; how many failed, if any did."""
+    """The run in one line: '63 of 197 jobs · 4 min 12 s used · about 14 min left'; how many failed, if any did."""
     failed = f" · {progress.failed} FAILED" if progress.failed else ""
     used = readable(round(now - progress.start)) if now - progress.start >= 60 else f"{now - progress.start:.0f} s"
     left = time_left(progress.remaining(now))
@@ -25,7 +25,15 @@ def heading(progress: Progress, now: float) -> str:
 
 
 def screen_lines(progress: Progress, now: float, *, title: str, width: int, height: int) -> list[str]:
-    """At most `height` lines of at most `width` characters: the whole run, its stages, and each job that runs."""
+    """The screen, at most `height` lines of at most `width` characters: the run, its stages, each job that runs.
+
+    Parameters:
+        progress: the run.
+        now: seconds, the clock of `progress`.
+        title: what the first line starts with.
+        width: characters of a line.
+        height: lines of the screen.
+    """
     filled = BAR * progress.done // max(1, len(progress.jobs))
     lines = [f"{title} · {heading(progress, now)}", f"[{'#' * filled}{'.' * (BAR - filled)}]  {_stages(progress)}"]
     rows = [_running(job, now) for job in progress.running]
@@ -35,20 +43,20 @@ def screen_lines(progress: Progress, now: float, *, title: str, width: int, heig
 
 
 def ended_line(job: Job, progress: Progress, now: float) -> str:
-    """'[63 of 197 jobs · 4 min 12 s used · about 14 min left] tune finger gp: 12.3 s'."""
+    """A job that has ended: '[63 of 197 jobs · 4 min 12 s used · about 14 min left] tune finger gp: 12.3 s'."""
     how = "FAILED" if job.taken is None else readable(job.taken)
     return f"[{heading(progress, now)}] {job.name}: {how}"
 
 
 def _stages(progress: Progress) -> str:
-    """The stages that are not done."""
+    """The stages that are not done, each with its jobs done and in all."""
     return ", ".join(f"{stage} {done}/{total}" for stage, done, total in progress.stages() if done < total)
 
 
 def _running(job: Job, now: float) -> list[str]:
-    """Stage; dataset; model and preset; trials done; time used."""
+    """The columns of a running job: stage; dataset; model and preset; trials done; time used."""
     others = " ".join(value for name, value in job.wildcards.items() if name != "dataset")
     study = trials(job.log)
-    told = f"trial {study[0]} of {study[1]}" if study else ""
+    trial = f"trial {study[0]} of {study[1]}" if study else ""
     used = readable(now - job.started) if job.started is not None else ""
-    return [job.stage, job.wildcards.get("dataset", ""), others, told, used]
+    return [job.stage, job.wildcards.get("dataset", ""), others, trial, used]

@@ -1,4 +1,4 @@
-"""How far a run has come, and how long it will take: counted and estimated, nothing drawn."""
+"""Count the jobs of a run and estimate the time that is left; nothing is drawn here."""
 
 from __future__ import annotations
 
@@ -14,16 +14,24 @@ from statistics import median
 TRIALS = re.compile(r"\b(?:trial|resuming after) (\d+) of (\d+)\b")
 #: The last trial stands in the last few lines of a log.
 TAIL_BYTES = 8000
-#: So many jobs, and seconds of earlier work, before this run's pace is compared with the earlier run's.
+#: Fewest jobs, and seconds of the run before, from which the pace of this run is computed.
 PACE_JOBS, PACE_SECONDS = 3, 10.0
-#: When so large a share of the jobs has ended, the few that were never timed do not make an estimate rough.
+#: From this share of ended jobs on, the few that were never timed do not make an estimate rough.
 LATE = 0.9
 
 
 @dataclass(slots=True)
 class Job:
-    """One job: its rule, its wildcards in order, its log, what it took in the run before (seconds; None: not known),
-    and when it started and ended (seconds of any one clock; None: not yet).
+    """A job of the run.
+
+    Attributes:
+        rule: its rule.
+        wildcards: its wildcards, in order.
+        log: its log file.
+        earlier: what it took in the run before, in seconds; None where not known.
+        started: when it started, in seconds of any one clock; None: not yet.
+        ended: when it ended, likewise.
+        failed: whether it ended in an error.
     """
 
     rule: str
@@ -36,12 +44,12 @@ class Job:
 
     @property
     def stage(self) -> str:
-        """'fit tuned'."""
+        """Its rule in words: 'fit tuned'."""
         return self.rule.replace("_", " ")
 
     @property
     def name(self) -> str:
-        """'fit tuned finger gp'."""
+        """Its rule and wildcards in words: 'fit tuned finger gp'."""
         return " ".join([self.stage, *self.wildcards.values()])
 
     @property
@@ -61,13 +69,13 @@ class Remaining:
 
 
 def trials(log: Path | None) -> tuple[int, int] | None:
-    """(trials done, trials in all) by the log of a study; None for a job that is none, or has not ended its first."""
+    """(trials done, trials in all) by the log of a study; None for another job, and before the first trial ends."""
     if log is None or not log.is_file():
         return None
     with log.open("rb") as file:
         file.seek(max(0, log.stat().st_size - TAIL_BYTES))
-        found = TRIALS.findall(file.read().decode("utf-8", errors="replace"))
-    return (int(found[-1][0]), int(found[-1][1])) if found else None
+        counts = TRIALS.findall(file.read().decode("utf-8", errors="replace"))
+    return (int(counts[-1][0]), int(counts[-1][1])) if counts else None
 
 
 def measured_seconds(benchmark: str | Path | None) -> float | None:
@@ -87,7 +95,7 @@ class Progress:
 
     @property
     def running(self) -> list[Job]:
-        """In the order of their start."""
+        """The jobs that run, in the order of their start."""
         jobs = [job for job in self.jobs.values() if job.started is not None and job.ended is None]
         return sorted(jobs, key=lambda job: job.started or 0.0)
 
@@ -102,13 +110,13 @@ class Progress:
         return sum(job.failed for job in self.jobs.values())
 
     def begin(self, number: int, now: float) -> None:
-        """A job has started, or starts again."""
+        """Note that a job has started, or starts again."""
         job = self.jobs.get(number)
         if job:
             job.started, job.ended, job.failed = now, None, False
 
     def end(self, number: int, now: float, *, failed: bool = False) -> Job | None:
-        """A job has ended; None for one that does no work, such as `all`."""
+        """Note that a job has ended, and return it; None for one that does no work, such as `all`."""
         job = self.jobs.get(number)
         if job:
             job.ended, job.failed = now, failed
@@ -123,13 +131,13 @@ class Progress:
         return [(stage, done, total) for stage, (done, total) in counts.items()]
 
     def pace(self) -> float:
-        """Seconds of this run per second of the earlier one: another machine, or a busy one."""
+        """Seconds of this run per second of the earlier one: above 1 on a slower or busier machine."""
         both = [(job.taken, job.earlier) for job in self.jobs.values() if job.taken is not None and job.earlier]
         earlier = sum(then for _, then in both)
         return sum(now for now, _ in both) / earlier if len(both) >= PACE_JOBS and earlier >= PACE_SECONDS else 1.0
 
     def remaining(self, now: float) -> Remaining:
-        """What the jobs that have not ended will take, shared among the cores.
+        """The time that the jobs which have not ended will take, shared among the cores.
 
         A study that has ended k of n trials takes n/k of its time so far; any other job what it took in the run
         before, at the pace of this one; a job without that the median of its rule, and late in a run that of all jobs.
@@ -162,7 +170,7 @@ class Progress:
 
     @staticmethod
     def _whole(job: Job, now: float, pace: float) -> float | None:
-        """Seconds from its start to its end, known or estimated from the job itself."""
+        """Seconds of a job from its start to its end, known or estimated from the job itself."""
         if job.taken is not None:
             return job.taken
         study = trials(job.log) if job.started is not None and job.ended is None else None

@@ -1,4 +1,4 @@
-"""The handler that takes the place of Snakemake's own on the terminal, from `onstart` to the end of the run."""
+"""The log handler that takes the place of Snakemake's own on the terminal, from `onstart` to the end of the run."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from softkin.core.job import ON_A_SCREEN
 
 #: The name that Snakemake gives the handler that writes to the terminal.
 SNAKEMAKES_OWN = "DefaultStreamHandler"
-#: A line of a job's log that is a warning of ours; Python's own name a file and a category, and stay in the log.
+#: A line of a job's log that is a warning of softkin; Python's own name a file and a category, and stay in the log.
 WARNING = re.compile(r"^\S+ \S+ WARNING (?!.*:\d+: \w*Warning: )(.+)$", re.MULTILINE)
 CLEAR_BELOW = "\033[J"
 
 
 class View(logging.Handler):
-    """Tells a run by Snakemake's own events, and lets warnings and errors through to `own`, Snakemake's handler.
+    """Shows a run from Snakemake's events, and passes warnings and errors on to `own`, Snakemake's handler.
 
     On a terminal one block of lines is drawn over itself once a second, and jobs write to their logs only; anywhere
-    else each job that ends is one line, and jobs tell what they tell.
+    else each job that ends is one line, and jobs write to the terminal too.
     """
 
     def __init__(
@@ -47,7 +47,7 @@ class View(logging.Handler):
         self._ticker: threading.Thread | None = None
 
     def start(self, logger: logging.Logger) -> None:
-        """Take the place of Snakemake's handler."""
+        """Take the place of Snakemake's handler, and start to draw."""
         logger.removeHandler(self.own)
         logger.addHandler(self)
         if self.is_screen:
@@ -56,7 +56,7 @@ class View(logging.Handler):
             self._ticker.start()
 
     def finish(self, logger: logging.Logger) -> None:
-        """Leave one line and give Snakemake its handler back."""
+        """Write one closing line and give Snakemake its handler back."""
         self.close()
         logger.removeHandler(self)
         logger.addHandler(self.own)
@@ -77,10 +77,10 @@ class View(logging.Handler):
         super().close()
 
     def emit(self, record: logging.LogRecord) -> None:
-        """Take note of an event, show what must be seen.
+        """Note an event in the progress, and show warnings and errors.
 
-        A reader who is gone (`snakemake | head`, a terminal that was closed) must not stop the run: Snakemake would
-        wait for the job whose end it was telling. The log file in .snakemake/log has it all.
+        A closed pipe or terminal (`snakemake | head`) must not stop the run: Snakemake would wait for the job whose
+        end it was reporting. The log file in .snakemake/log has all messages.
         """
         event, now = getattr(record, "event", None), self.clock()
         if event not in ("job_started", "job_finished", "job_error") and record.levelno < logging.WARNING:
@@ -96,12 +96,12 @@ class View(logging.Handler):
                 ended = self.progress.end(record.__dict__["jobid"], now, failed=True)
             with suppress(OSError):
                 self._clear()
-                self._tell(ended, now)
+                self._show_ended(ended, now)
                 if record.levelno >= logging.WARNING:
                     self.own.handle(record)
                 self._draw()
 
-    def _tell(self, job: Job | None, now: float) -> None:
+    def _show_ended(self, job: Job | None, now: float) -> None:
         if job is None:
             return
         if not self.is_screen:
@@ -125,7 +125,7 @@ class View(logging.Handler):
         if not self.is_screen or self._ended.is_set():
             return
         width, height = os.get_terminal_size(self.stream.fileno())
-        # A terminal that does not tell its size says 0.
+        # A terminal of unknown size reports 0.
         lines = screen_lines(
             self.progress, self.clock(), title=self.title, width=width or 80, height=(height or 24) - 1
         )

@@ -18,24 +18,24 @@ from softkin.core.rows import Indices, sampled_rows
 from softkin.core.samples import CONSTANT_RANGE_MM, Array
 from softkin.core.smooth_fit import fit_smoothly
 
-#: Rows that are looked at, drawn with a fixed seed: a million of them would stand in memory several times.
-MAX_ROWS_SEEN = 10_000
+#: Rows that outliers are sought in, drawn with a fixed seed: a million rows would stand in memory several times.
+MAX_ROWS_SAMPLED = 10_000
 #: Rows that a frame is estimated from, evenly spread over those sorted by how far they are bent aside.
 MAX_ROWS = 300
-#: A residual of this share of the robot's reach counts as an outlier's.
+#: Residuals are divided by this share of the robot's extent: larger ones weigh less, as those of outliers.
 TYPICAL_RESIDUAL = 0.01
-#: Rows this many robust standard deviations off a smooth fit say nothing of the base.
+#: Rows this many robust standard deviations off a smooth fit are outliers and left out.
 OUTLIER = 8.0
 #: How far below the highest marker the base may be, in units of how far markers go aside: where the search starts.
 STARTS = (0.5, 1.0, 2.0, 4.0)
 REFINED_STARTS = 4
-#: An axis off z by less (rad) is z: the squares of such numbers may underflow.
+#: An axis less than this (rad) off z counts as z: the squares of such numbers may underflow.
 PARALLEL = 1e-15
-#: Estimates that are remembered: a study fits all its trials to the same few parts of `train`.
-REMEMBERED = 64
+#: Estimates that are cached: a study fits all its trials to the same few parts of `train`.
+MAX_CACHED = 64
 
 
-#: The bytes of an array of doubles, and its shape.
+#: An array of doubles as something hashable: its bytes and its shape.
 _Key = tuple[bytes, tuple[int, ...]]
 
 
@@ -67,12 +67,12 @@ class BaseFrame:
 
 
 def base_frame(commands: Array, points: Array, declared: Mapping[str, Any] | None = None) -> BaseFrame:
-    """The frame in which commands (n_rows, n_commands) say most simply how a robot bends; points are its markers
-    (n_rows, n_markers, 3) in mm.
+    """The frame of a robot's base, from its commands (n_rows, n_commands) and markers `points` (n_rows, n_markers, 3)
+    in mm.
 
-    `declared` may give `origin` (mm; None where a coordinate is not known) and `axis`. What it does not give is
-    estimated: the origin is a marker that never moves, if there is one; else origin and axis are those for which arcs
-    that are linear in the commands come closest to the markers, by robust least squares.
+    `declared` may hold `origin` (mm; None where a coordinate is not known) and `axis`. What it does not hold is
+    estimated: the origin is a constant marker, if there is one; else origin and axis are those for which arcs that are
+    linear in the commands come closest to the markers, by robust least squares.
     """
     declared = declared or {}
     still = np.ptp(points, axis=0).max(axis=1) <= CONSTANT_RANGE_MM
@@ -82,15 +82,15 @@ def base_frame(commands: Array, points: Array, declared: Mapping[str, Any] | Non
     axis = _unit(declared["axis"]) if declared.get("axis") else None
     if axis is not None and not np.isnan(origin).any():
         return BaseFrame(origin, axis)
-    seen = sampled_rows(len(commands), MAX_ROWS_SEEN, seed=0)
-    commands, moving = commands[seen], points[np.ix_(seen, ~still)]
-    rows = _telling_rows(commands, moving)
-    telling = np.asarray(commands[rows], dtype=np.float64), np.asarray(moving[rows], dtype=np.float64)
-    return _remembered(*((array.tobytes(), array.shape) for array in telling), origin.tobytes(), _bytes(axis))
+    drawn = sampled_rows(len(commands), MAX_ROWS_SAMPLED, seed=0)
+    commands, moving = commands[drawn], points[np.ix_(drawn, ~still)]
+    rows = _sample_without_outliers(commands, moving)
+    arrays = np.asarray(commands[rows], dtype=np.float64), np.asarray(moving[rows], dtype=np.float64)
+    return _cached(*((array.tobytes(), array.shape) for array in arrays), origin.tobytes(), _bytes(axis))
 
 
-def _telling_rows(commands: Array, points: Array) -> Indices:
-    """Rows without outliers, at most `MAX_ROWS`, evenly spread from those in the middle to those bent farthest."""
+def _sample_without_outliers(commands: Array, points: Array) -> Indices:
+    """Row numbers without outliers, about `MAX_ROWS`, evenly spread from the middle to those bent farthest."""
     positions = points.reshape(len(points), -1)
     fit = fit_smoothly(commands, positions, np.arange(len(commands)))
     good = np.abs(fit.residuals(commands, positions)) <= fit.limits(commands, OUTLIER)
@@ -99,15 +99,15 @@ def _telling_rows(commands: Array, points: Array) -> Indices:
     return rows[np.argsort(aside, kind="stable")][:: max(1, len(rows) // MAX_ROWS)]
 
 
-@lru_cache(REMEMBERED)
-def _remembered(commands: _Key, points: _Key, origin: bytes, axis: bytes | None) -> BaseFrame:
-    """`_estimated`, of the bytes and shapes of its arguments."""
+@lru_cache(MAX_CACHED)
+def _cached(commands: _Key, points: _Key, origin: bytes, axis: bytes | None) -> BaseFrame:
+    """`_estimated`, called with the bytes and shapes of its arguments."""
     of_commands, of_points = (np.frombuffer(content).reshape(shape) for content, shape in (commands, points))
     return _estimated(of_commands, of_points, np.frombuffer(origin), None if axis is None else np.frombuffer(axis))
 
 
 def _estimated(commands: Array, points: Array, origin: Array, axis: Array | None) -> BaseFrame:
-    """`origin` is NaN where it is to be estimated, `axis` None."""
+    """The frame by robust least squares; `origin` is NaN where it is to be estimated, `axis` is None."""
     terms = np.column_stack([np.ones(len(commands)), StandardScaler().fit_transform(commands)])
     solve = np.linalg.pinv(terms)
     flat = points.reshape(-1, 3)
@@ -115,12 +115,12 @@ def _estimated(commands: Array, points: Array, origin: Array, axis: Array | None
     spread_out = np.ptp(flat, axis=0) > CONSTANT_RANGE_MM
     moves = np.isnan(origin) & spread_out
     within = np.eye(3)[spread_out]
-    reach = float(np.linalg.norm(np.ptp(flat, axis=0)))
+    extent = float(np.linalg.norm(np.ptp(flat, axis=0)))
 
     def moved(start: BaseFrame, values: Array) -> BaseFrame:
-        """The frame that lies `values` from a start: shares of the reach for the origin, radians for the axis."""
+        """The frame that lies `values` from a start: shares of the extent for the origin, radians for the axis."""
         new = start.origin.copy()
-        new[moves] += reach * values[: moves.sum()]
+        new[moves] += extent * values[: moves.sum()]
         if axis is not None:
             return BaseFrame(new, axis)
         sideways = np.linalg.svd((within @ start.axis)[None, :])[2][1:] @ within
@@ -129,22 +129,22 @@ def _estimated(commands: Array, points: Array, origin: Array, axis: Array | None
     def residuals(values: Array, start: BaseFrame) -> Array:
         frame = moved(start, values)
         fitted = (terms @ (solve @ to_arcs(frame.to_base(points)).reshape(len(points), -1))).reshape(points.shape)
-        return np.asarray((frame.from_base(from_arcs(fitted)) - points).ravel() / (TYPICAL_RESIDUAL * reach))
+        return np.asarray((frame.from_base(from_arcs(fitted)) - points).ravel() / (TYPICAL_RESIDUAL * extent))
 
-    nothing = np.zeros(moves.sum() + (len(within) - 1 if axis is None else 0))
+    unmoved = np.zeros(moves.sum() + (len(within) - 1 if axis is None else 0))
     starts = sorted(
-        _starts(flat, within, origin, axis), key=lambda start: float(np.log1p(residuals(nothing, start) ** 2).sum())
+        _starts(flat, within, origin, axis), key=lambda start: float(np.log1p(residuals(unmoved, start) ** 2).sum())
     )
-    found = [
-        (start, least_squares(residuals, nothing, args=(start,), loss="soft_l1", x_scale=0.1, max_nfev=60))
+    fits = [
+        (start, least_squares(residuals, unmoved, args=(start,), loss="soft_l1", x_scale=0.1, max_nfev=60))
         for start in starts[:REFINED_STARTS]
     ]
-    start, best = min(found, key=lambda pair: float(pair[1].cost))
+    start, best = min(fits, key=lambda pair: float(pair[1].cost))
     return moved(start, best.x)
 
 
 def _starts(points: Array, within: Array, origin: Array, axis: Array | None) -> Sequence[BaseFrame]:
-    """Where the search starts: along every signed coordinate axis `within` the robot's space, at some depths."""
+    """Frames to start from: along every signed coordinate axis of the robot's space (rows of `within`), at `STARTS`."""
     axes = [sign * row for row in within for sign in (1.0, -1.0)] if axis is None else [axis]
     middle = np.median(points, axis=0)
     starts = []

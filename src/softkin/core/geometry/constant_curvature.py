@@ -10,8 +10,7 @@ import numpy as np
 
 from softkin.core.samples import CONSTANT_RANGE_MM, Array
 
-#: Bent all the way round, an arc ends where it begins, and which way it went is lost: this close to it (rad) nobody
-#: can tell.
+#: Largest bending (rad) that is told apart: near 2 pi an arc ends where it begins, and its direction is lost.
 MAX_BENDING = 1.95 * np.pi
 
 
@@ -34,7 +33,7 @@ def to_arcs(points: Array) -> Array:
 def from_arcs(arcs: Array) -> Array:
     """The inverse of `to_arcs`, for arcs of any bending (n_rows, n_markers, 3).
 
-    x = s (1 - cos b) / b * b_x / b = s b_x / 2 (sin(b / 2) / (b / 2))^2, z = s sin(b) / b: nothing is divided by zero.
+    x = s (1 - cos b) / b * b_x / b = s b_x / 2 (sin(b / 2) / (b / 2))^2, z = s sin(b) / b; sinc needs no division by 0.
     """
     b_x, b_y, length = np.moveaxis(arcs, -1, 0)
     bending = np.hypot(b_x, b_y)
@@ -55,8 +54,10 @@ def spread_of_points(arcs: Array, spread: Array, axes: Array) -> Array:
     return np.sqrt(squares)
 
 
-def in_domain(points: Array) -> Array:
-    """Which points (n_rows, n_markers, 3) one arc leads to: away from the base, bent by at most `MAX_BENDING`."""
+def has_arc(points: Array) -> Array:
+    """Mask (n_rows, n_markers) of the points (n_rows, n_markers, 3) that exactly one arc leads to: away from the base,
+    bent by at most `MAX_BENDING`.
+    """
     x, y, z = np.moveaxis(points, -1, 0)
     away = np.linalg.norm(points, axis=-1) > CONSTANT_RANGE_MM
     return np.asarray(away & (2 * np.arctan2(np.hypot(x, y), z) <= MAX_BENDING))

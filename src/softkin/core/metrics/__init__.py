@@ -1,1 +1,1 @@
-"""Metrics: of predicted positions (point), later of intervals."""
+"""Metrics of predicted positions (`point`), quantiles (`pinball`) and intervals (`interval`)."""

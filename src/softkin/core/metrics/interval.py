@@ -52,7 +52,7 @@ def coverage_band(n_rows: int, n_calibration: int, rank: int, band: float = 0.95
 
 @cache
 def coverage_p_value(n_covered: int, n_rows: int, n_calibration: int, rank: int) -> float:
-    """Two-sided exact p-value of this many covered rows under the same law."""
+    """Two-sided exact p-value of this many covered rows, under the beta-binomial distribution of `coverage_band`."""
     law = stats.betabinom(n_rows, rank, n_calibration + 1 - rank)
     return float(min(1.0, 2.0 * min(law.cdf(n_covered), law.sf(n_covered - 1))))
 
@@ -65,7 +65,7 @@ def clopper_pearson(n_covered: int, n_rows: int, band: float = 0.95) -> tuple[fl
 
 
 def holm(p_values: Array) -> Array:
-    """Holm's (1979) adjusted p-values: reject where at most the error rate, for the whole family at once."""
+    """Holm's (1979) adjusted p-values: rejecting those at most alpha keeps the family-wise error rate at alpha."""
     order = np.argsort(p_values, kind="stable")
     factors = np.arange(len(p_values), 0, -1)
     adjusted = np.empty(len(p_values))
@@ -74,13 +74,20 @@ def holm(p_values: Array) -> Array:
 
 
 def worst_slab(
-    commands: Array, inside: Array, seed: int, share: float = 0.2, n_directions: int = 200
+    commands: Array, covered_share: Array, seed: int, share: float = 0.2, n_directions: int = 200
 ) -> NDArray[np.intp]:
-    """Rows of the slab a <= v'u <= b of command space with the lowest coverage, at least `share` of all rows.
+    """Row numbers of the slab a <= v'u <= b of command space with the lowest coverage.
 
-    Searched on a random half of the rows over random directions v, and read off the other half, so that the worst of
-    many looks no worse than it is. `inside` (n_rows,) is the share of covered coordinates; returns row numbers.
+    The slab is searched on a random half of the rows, and its rows are those of the other half, so that picking the
+    worst of many slabs does not bias its coverage.
     Source: Cauchois, Gupta and Duchi (2021), section 4; Romano, Sesia and Candes (2020).
+
+    Parameters:
+        commands: (n_rows, n_commands).
+        covered_share: share of covered coordinates of each row (n_rows,).
+        seed: of the halves and of the directions v.
+        share: least share of the searched rows that a slab holds.
+        n_directions: number of random directions v.
     """
     rng = np.random.default_rng(seed)
     order = rng.permutation(len(commands))
@@ -88,17 +95,17 @@ def worst_slab(
     scale = commands.std(axis=0)
     standardised = (commands - commands.mean(axis=0)) / np.where(scale > 0, scale, 1.0)
     least = max(1, int(np.ceil(share * len(search))))
-    worst, found = np.inf, (np.zeros(commands.shape[1]), -np.inf, np.inf)
+    worst, slab = np.inf, (np.zeros(commands.shape[1]), -np.inf, np.inf)
     for direction in rng.standard_normal((n_directions, commands.shape[1])):
         values = standardised[search] @ direction
         ranked = np.argsort(values, kind="stable")
-        sums = np.concatenate([[0.0], np.cumsum(inside[search][ranked])])
+        sums = np.concatenate([[0.0], np.cumsum(covered_share[search][ranked])])
         for length in (least, (least + len(search)) // 2):
             means = (sums[length:] - sums[:-length]) / length
             start = int(np.argmin(means))
             if means[start] < worst:
                 ends = values[ranked[[start, start + length - 1]]]
-                worst, found = float(means[start]), (direction, float(ends[0]), float(ends[1]))
-    direction, low, high = found
+                worst, slab = float(means[start]), (direction, float(ends[0]), float(ends[1]))
+    direction, low, high = slab
     values = standardised[rest] @ direction
     return np.asarray(rest[(low <= values) & (values <= high)])

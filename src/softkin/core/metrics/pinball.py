@@ -1,4 +1,4 @@
-"""The loss that quantiles are learnt by and tuned for."""
+"""The pinball loss, which quantile regressors are fitted and tuned by."""
 
 from __future__ import annotations
 

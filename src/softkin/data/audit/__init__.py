@@ -1,4 +1,4 @@
-"""Audit: what a dataset is worth before anything is fitted to it. One file a check, one line here."""
+"""Audit of a dataset before anything is fitted to it. One file a check, one line here."""
 
 from __future__ import annotations
 

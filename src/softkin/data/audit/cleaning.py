@@ -1,4 +1,4 @@
-"""Clean: drop from train the rows that an audit finds wrong or superfluous. No other subset is touched, or read."""
+"""Clean `train`: drop its stuck and duplicate rows. No other subset is read or changed."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from softkin.data.audit.stuck_poses import stuck
 def cleaned(samples: Mapping[str, Samples]) -> tuple[dict[str, Samples], dict[str, int]]:
     """`samples` without the stuck and the duplicate rows of `train`, and how many of each were removed.
 
-    Only train decides: a pose that is shared with a row of another subset alone stays, since to look there would be to
-    learn from it. A row that is both counts as stuck.
+    Only rows of `train` count: a row that shares its pose with a row of another subset alone stays, since a model must
+    not learn from other subsets. A row that is both counts as stuck.
     """
     train = samples[TRAIN]
     moving = informative_coordinates(train.positions)

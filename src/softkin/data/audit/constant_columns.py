@@ -1,4 +1,4 @@
-"""Constant columns: a coordinate that never moves on train, a command that is never varied there."""
+"""Check for constant columns: coordinates that never move on `train`, commands that never vary there."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from softkin.data.audit.findings import WARNING, CheckResult, Finding
 
 
 def check(samples: Mapping[str, Samples]) -> CheckResult:
-    """A finding for constant coordinates, and one for constant commands."""
+    """At most one finding on constant coordinates, and one on constant commands."""
     train = samples[TRAIN]
     moving = informative_coordinates(train.positions)
     coordinates = [name for name, moves in zip(coordinate_columns(len(moving) // 3), moving, strict=True) if not moves]
@@ -35,8 +35,8 @@ def check(samples: Mapping[str, Samples]) -> CheckResult:
                 (TRAIN,),
                 f"{len(coordinates)} of {len(moving)} coordinates never move on train (by less than "
                 f"{CONSTANT_RANGE_MM:g} mm): {', '.join(coordinates)}{whole}.",
-                "They are predicted without effort: averages over all coordinates look better than the robot is, and "
-                "their R2 is 1 or 0 by floating-point luck. Read the columns named `_informative`.",
+                "Any model predicts them exactly, so averages over all coordinates look better than the model is, and "
+                "their R2 is 1 or 0, as rounding decides. Read the columns named `_informative`, which leave them out.",
             )
         )
     if commands:
@@ -46,7 +46,7 @@ def check(samples: Mapping[str, Samples]) -> CheckResult:
                 WARNING,
                 (TRAIN,),
                 f"{len(commands)} of {len(varied)} commands never vary on train: {', '.join(commands)}.",
-                "No model can learn what they do; predictions where they differ are guesses.",
+                "No model can learn what they do: where they differ from train, predictions are guesses.",
             )
         )
     return CheckResult(tuple(findings), {"coordinates": coordinates, "commands": commands})

@@ -1,4 +1,4 @@
-"""Copied commands: rows of the other subsets whose command stands, bit for bit, in train."""
+"""Check for copied commands: rows of the other subsets whose command stands, bit for bit, in `train`."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from softkin.core.rows import row_groups, split_by_subset, stacked_commands
 from softkin.core.samples import TRAIN, Samples
 from softkin.data.audit.findings import LEAK, LEAK_CONSEQUENCES, WARNING, CheckResult, finding_of_rows
 
-#: From this share of a subset's rows on, copies are a leak: its score is training error. Below, they are a few rows.
+#: From this share of a subset's rows on, copies are a leak: its score is training error. Below, they are a warning.
 LEAK_SHARE = 0.01
 
 
 def check(samples: Mapping[str, Samples]) -> CheckResult:
-    """A finding per subset with copies."""
+    """A finding for each subset with copies."""
     groups = row_groups(stacked_commands(samples))
     by_subset = split_by_subset(groups, samples)
     findings, numbers = [], {}

@@ -1,4 +1,4 @@
-"""Audit: the table of `prepare` -> the data card of its dataset, as JSON and as a page to read."""
+"""Audit a dataset: its tidy table -> its data card, as JSON and as a readable page."""
 
 from __future__ import annotations
 
@@ -31,13 +31,20 @@ def audit(
     removed: Mapping[str, int] | None = None,
     base: Mapping[str, Any] | None = None,
 ) -> None:
-    """Run every check on `table` (Parquet, mm) and write `data_card` (JSON) and `readable` (Markdown).
+    """Run every check on a tidy table, and write the data card and its readable page.
 
-    `position_unit` is the unit of the dataset's own file, told in the card; `removed` counts the rows that `cleaned`
-    took from train before, None where it was not asked to; `base` is what the entry declares of the robot's base.
+    Parameters:
+        table: path of the tidy table (Parquet, mm).
+        dataset: name of the dataset.
+        title: what tables and figures call it.
+        position_unit: unit of positions in the dataset's own file, for the card.
+        data_card: path of the card to write (JSON).
+        readable: path of the page to write (Markdown).
+        removed: rows that cleaning dropped from `train`, by kind; None where it was not asked for.
+        base: what the dataset's entry declares of the robot's base.
 
     Raises:
-        SoftkinError: a subset has no rows.
+        DataError: a subset has no rows.
     """
     samples = {subset: read_subset(table, subset) for subset in SUBSETS}
     results = {name: check(samples) for name, check in CHECKS.items()}
@@ -60,7 +67,7 @@ def audit(
     for finding in findings:
         logger.info("%s: %s", finding.severity, finding.sentence)
     if not findings:
-        logger.info("nothing found in %d rows", sum(map(len, samples.values())))
+        logger.info("no findings in %d rows", sum(map(len, samples.values())))
 
 
 def _description(rows: Samples) -> dict[str, Any]:
@@ -73,7 +80,7 @@ def _description(rows: Samples) -> dict[str, Any]:
 
 
 def _base(train: Samples, declared: Mapping[str, Any]) -> dict[str, Any]:
-    """Where the base stands, the start of curvature coordinates: by the entry, and by `train` where that is silent."""
+    """The base of the robot, where curvature coordinates start: as declared, and estimated from `train` otherwise."""
     points = train.positions.reshape(len(train), -1, 3)
     still = np.ptp(points, axis=0).max(axis=1) <= CONSTANT_RANGE_MM
     if still.all():

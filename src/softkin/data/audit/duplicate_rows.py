@@ -1,4 +1,4 @@
-"""Duplicate rows: command and pose both equal, bit for bit, to an earlier row of the same subset."""
+"""Check for duplicate rows: command and pose equal, bit for bit, those of an earlier row of the same subset."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from softkin.core.rows import repeats_an_earlier_row, row_groups
 from softkin.core.samples import TRAIN, Samples
 from softkin.data.audit.findings import NOTE, WARNING, CheckResult, finding_of_rows
 
-#: From this share of all rows on, copies weigh in a fit; below, they are only told.
+#: From this share of all rows on, duplicates are a warning, since they weigh in a fit; below, they are a note.
 WARNING_SHARE = 0.01
 
 
@@ -21,7 +21,7 @@ def duplicates(rows: Samples) -> NDArray[np.bool_]:
 
 
 def check(samples: Mapping[str, Samples]) -> CheckResult:
-    """One finding over all subsets."""
+    """At most one finding, on all subsets."""
     marked = {subset: duplicates(rows) for subset, rows in samples.items()}
     counts = {subset: int(mask.sum()) for subset, mask in marked.items()}
     if not any(counts.values()):
@@ -33,7 +33,7 @@ def check(samples: Mapping[str, Samples]) -> CheckResult:
         marked,
         f"{copies} of {total} rows are copies, in command and pose, of an earlier row of the same subset "
         f"({counts[TRAIN]} of them in train).",
-        "Copies add no knowledge, only weight: the dataset is smaller than its number of rows says, and "
-        "cross-validation must keep copies in one fold (softkin's folds do).",
+        "Copies add weight and no information: the dataset is smaller than its number of rows says, and "
+        "cross-validation must keep copies in one fold, as softkin does.",
     )
     return CheckResult((finding,), {"rows": counts})

@@ -1,9 +1,9 @@
-"""Does extrapolation lie outside train? Command norms, and the share of rows outside the convex hull of train commands.
+"""Check that extrapolation lies beyond train: command norms, and the share of rows off the convex hull of `train`.
 
-A row is outside when a plane separates its command from all train commands. The plane across the line from the centre
-of train is tried first; then the best one is sought by linear programming (scipy, HiGHS), which works with any number
-of commands: first against a few train commands, then also against those on the wrong side of the plane that was found,
-until there are none (outside) or no plane is left (inside). The answer is that of all `hull` commands at once.
+A row is off the hull when a plane separates its command from all train commands. The plane across the line from the
+centre of train is tried first; then the best one is sought by linear programming (scipy, HiGHS), which works with any
+number of commands: first against a few train commands, then also against those on the wrong side of that plane, until
+there are none (off the hull) or no plane is left (within it). The result is that of all `hull` commands at once.
 """
 
 from __future__ import annotations
@@ -19,42 +19,42 @@ from softkin.core.rows import command_scale, first_of_each, row_groups, sampled_
 from softkin.core.samples import EXTRAPOLATION, SUBSETS, TRAIN, Array, Samples
 from softkin.data.audit.findings import WARNING, CheckResult, Finding
 
-MAX_HULL, MAX_ROWS_LOOKED_AT = 50_000, 100
-#: With less than this share of extrapolation outside the hull, most of it is interpolation.
-OUTSIDE_SHARE = 0.5
-#: Nearer to the hull than this (in standard deviations of the commands on train) counts as inside.
+MAX_HULL, MAX_ROWS_CHECKED = 50_000, 100
+#: With less than this share of extrapolation off the hull, most of it is interpolation.
+FEWEST_OFF_HULL = 0.5
+#: Nearer to the hull than this (in standard deviations of the commands on train) counts as within.
 TOLERANCE = 1e-9
 
 
-def outside_hull(points: Array, hull: Array) -> NDArray[np.bool_]:
-    """Mask (n_points,) of the `points` outside the convex hull of the rows of `hull`, same columns in both."""
+def off_hull(points: Array, hull: Array) -> NDArray[np.bool_]:
+    """Mask (n_points,) of `points` (n_points, n_columns) off the convex hull of the rows of `hull`."""
     centre = hull.mean(axis=0)
     points, hull = points - centre, hull - centre
-    return np.array([_is_outside(point, hull) for point in points])
+    return np.array([_is_off_hull(point, hull) for point in points])
 
 
-def _is_outside(point: Array, hull: Array) -> bool:
+def _is_off_hull(point: Array, hull: Array) -> bool:
     along, length = hull @ point, np.linalg.norm(point)
     if along.max() < length**2 - TOLERANCE * length:
         return True
-    seen = _largest(along, 4 * len(point))
+    tried = _largest(along, 4 * len(point))
     while True:
-        # Maximise a x - b over |a_j| <= 1 with a h <= b for each row h seen of the hull; above 0, a plane separates.
+        # Maximise a x - b over |a_j| <= 1 with a h <= b for each tried row h of the hull; above 0, a plane separates.
         best = linprog(
             np.append(-point, 1.0),
-            A_ub=np.column_stack([hull[seen], -np.ones(len(seen))]),
-            b_ub=np.zeros(len(seen)),
+            A_ub=np.column_stack([hull[tried], -np.ones(len(tried))]),
+            b_ub=np.zeros(len(tried)),
             bounds=[(-1.0, 1.0)] * len(point) + [(None, None)],
             method="highs",
         )
         if -best.fun <= TOLERANCE:
             return False
         beyond = hull @ best.x[:-1] - best.x[-1]
-        beyond[seen] = -np.inf
+        beyond[tried] = -np.inf
         if beyond.max() <= TOLERANCE:
             return True
         worst = _largest(beyond, 4 * len(point))
-        seen = np.append(seen, worst[beyond[worst] > TOLERANCE])
+        tried = np.append(tried, worst[beyond[worst] > TOLERANCE])
 
 
 def _largest(values: Array, count: int) -> NDArray[np.intp]:
@@ -63,7 +63,7 @@ def _largest(values: Array, count: int) -> NDArray[np.intp]:
 
 
 def check(samples: Mapping[str, Samples], seed: int = 0) -> CheckResult:
-    """At most one finding, about extrapolation."""
+    """At most one finding, on extrapolation."""
     train = samples[TRAIN].commands
     scale = command_scale(train)
     hull = train[first_of_each(row_groups(train))] / scale
@@ -74,18 +74,17 @@ def check(samples: Mapping[str, Samples], seed: int = 0) -> CheckResult:
         numbers[subset] = {"norm_min": float(norms.min()), "norm_max": float(norms.max())}
         if subset == TRAIN:
             continue
-        rows = sampled_rows(len(samples[subset]), MAX_ROWS_LOOKED_AT, seed)
-        outside = outside_hull(samples[subset].commands[rows] / scale, hull)
-        numbers[subset] |= {"rows_looked_at": len(rows), "share_outside_hull": float(outside.mean())}
+        rows = sampled_rows(len(samples[subset]), MAX_ROWS_CHECKED, seed)
+        are_off = off_hull(samples[subset].commands[rows] / scale, hull)
+        numbers[subset] |= {"rows_looked_at": len(rows), "share_outside_hull": float(are_off.mean())}
     share = numbers[EXTRAPOLATION]["share_outside_hull"]
-    if share >= OUTSIDE_SHARE:
+    if share >= FEWEST_OFF_HULL:
         return CheckResult((), numbers)
     finding = Finding(
         "extrapolation_inside",
         WARNING,
         (EXTRAPOLATION,),
-        f"Only {share:.0%} of the rows of extrapolation (of those looked at) lie outside the convex hull of train "
-        "commands.",
-        "Most of this subset is interpolation: its scores do not say how a model fares outside its data.",
+        f"Only {share:.0%} of the checked rows of extrapolation lie outside the convex hull of train commands.",
+        "Most of this subset is interpolation: its scores do not tell how a model extrapolates.",
     )
     return CheckResult((finding,), numbers)

@@ -1,4 +1,4 @@
-"""Few distinct commands: many rows that ask the robot the same few questions."""
+"""Check for few distinct commands: many rows that repeat the same few commands."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ FEW_SHARE = 0.5
 
 
 def check(samples: Mapping[str, Samples]) -> CheckResult:
-    """At most one finding, about train; the count over all subsets stands in it."""
+    """At most one finding, on `train`, with the number of distinct commands over all subsets."""
     distinct = {subset: _distinct(rows.commands) for subset, rows in samples.items()}
     in_all = _distinct(stacked_commands(samples))
     numbers = {"distinct": distinct, "distinct_in_all_subsets": in_all}
@@ -25,8 +25,8 @@ def check(samples: Mapping[str, Samples]) -> CheckResult:
         WARNING,
         (TRAIN,),
         f"All {total} rows hold only {in_all} distinct commands; train has {distinct[TRAIN]} in {n_train} rows.",
-        f"A model sees its robot at {distinct[TRAIN]} points, not {n_train}. Rows of one command must stay in one "
-        "subset and one fold, otherwise every score is training error.",
+        f"A model learns from {distinct[TRAIN]} commands, not from {n_train}. Rows of one command must stay in one "
+        "subset and in one fold, otherwise every score is training error.",
     )
     return CheckResult((finding,), numbers)
 

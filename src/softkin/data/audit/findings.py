@@ -1,4 +1,4 @@
-"""What an audit says of a dataset: findings, each with its rows and what follows from it."""
+"""Findings of an audit: severity, rows, a sentence and its consequence; and what a data card tells of leaks."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from softkin.core.samples import EXTRAPOLATION, TEST, VALIDATION
 
-#: From mild to grave. A leak marks every testing table of its dataset; a warning is for whoever fits; a note is told.
+#: From mild to grave. A leak marks the tables of its subset; a warning asks for care; a note touches no score.
 NOTE, WARNING, LEAK = SEVERITIES = ("note", "warning", "leak")
 
-#: What follows for each subset whose commands stand in train.
+#: What follows for each subset whose commands stand in `train`. The tables hold these sentences.
 LEAK_CONSEQUENCES = {
     VALIDATION: "Intervals are calibrated on commands that the model was fitted to: too narrow for new ones.",
     TEST: "The score on these rows is training error: it says how well a model remembers, not how well it predicts.",
@@ -27,10 +27,10 @@ MAX_ROWS_LISTED = 100
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """One thing that a reader of the dataset's tables must know.
+    """One result of a check that a reader of the dataset's tables must know.
 
     `rows` holds the first `MAX_ROWS_LISTED` row numbers (0-based, within the subset) of each subset in `subsets`, and
-    `n_rows` how many there are in all; both are empty where the finding is about columns or a whole subset.
+    `n_rows` how many there are in all; both are empty where the finding is on columns or a whole subset.
     """
 
     code: str
@@ -42,13 +42,13 @@ class Finding:
     n_rows: Mapping[str, int] = field(default_factory=dict)
 
     def as_dict(self) -> dict[str, Any]:
-        """For JSON."""
+        """The finding as a dictionary for JSON."""
         return asdict(self)
 
 
 @dataclass(frozen=True, slots=True)
 class CheckResult:
-    """What one check found, and what it measured on the way: plain `numbers` for JSON, found something or not."""
+    """The findings of one check, and the `numbers` that it measured, for JSON."""
 
     findings: tuple[Finding, ...]
     numbers: Mapping[str, Any]
@@ -57,7 +57,15 @@ class CheckResult:
 def finding_of_rows(
     code: str, severity: str, marked: Mapping[str, NDArray[np.bool_]], sentence: str, consequence: str
 ) -> Finding:
-    """A finding about the rows where `marked` (subset -> mask (n_rows,)) is True; subsets without any are left out."""
+    """A finding on marked rows; subsets without any are left out.
+
+    Parameters:
+        code: short name of the finding.
+        severity: one of `SEVERITIES`.
+        marked: subset -> mask (n_rows,) of the rows that the finding is on.
+        sentence: what is the case.
+        consequence: what follows for a reader of the dataset's tables.
+    """
     rows = {subset: np.flatnonzero(mask) for subset, mask in marked.items() if mask.any()}
     return Finding(
         code,
@@ -71,17 +79,17 @@ def finding_of_rows(
 
 
 def counted(number: int, noun: str) -> str:
-    """'1 row', '2 rows'."""
+    """A number with its noun: '1 row', '2 rows'."""
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
 def leaking_subsets(card: Mapping[str, Any]) -> set[str]:
-    """The subsets whose scores are training error, by a data card."""
+    """The subsets that leak, by a data card: their scores are training error."""
     return {subset for finding in card["findings"] if finding["severity"] == LEAK for subset in finding["subsets"]}
 
 
 def leak_notes(card: Mapping[str, Any]) -> dict[str, str]:
-    """What a reader of a subset's scores must know of its leaks, by subset and by a data card."""
+    """Subset -> the note on its leaks, by a data card."""
     notes: dict[str, str] = {}
     for finding in card["findings"]:
         for subset in finding["subsets"] if finding["severity"] == LEAK else ():

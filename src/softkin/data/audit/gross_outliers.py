@@ -1,8 +1,8 @@
-"""Gross outliers: rows whose pose lies far from a robust smooth fit, and from what the rows around them do.
+"""Check for gross outliers: rows whose pose lies far from a robust smooth fit, and from the rows around them.
 
-Far means both: beyond the limits of the fit at `FAR_SCALES` standard deviations, and by more than `FAR_REACH` of the
-coordinate's reach. The second look, at the neighbours' residuals, spares regions where the fit is poor or the robot
-noisy. Rows that share their pose with another command are left to the check of stuck poses.
+Far means both: beyond the limits of the fit at `FAR_SCALES` standard deviations, and by more than `FAR_SHARE` of the
+coordinate's extent. Comparing with the neighbours' residuals spares regions where the fit is poor or the robot noisy.
+Rows that share their pose with another command are left to the check of stuck poses.
 """
 
 from __future__ import annotations
@@ -28,14 +28,14 @@ from softkin.core.samples import TRAIN, Samples, informative_coordinates
 from softkin.core.smooth_fit import fit_smoothly
 from softkin.data.audit.findings import WARNING, CheckResult, counted, finding_of_rows
 
-FAR_SCALES, FAR_REACH = 10.0, 0.01
+FAR_SCALES, FAR_SHARE = 10.0, 0.01
 N_NEIGHBOURS = 20
-#: The second look is given to this many of the worst rows, among this many rows.
+#: This many of the worst rows are compared with their neighbours, which are sought among this many rows.
 MAX_CANDIDATES, MAX_NEIGHBOUR_ROWS = 5_000, 100_000
 
 
 def check(samples: Mapping[str, Samples], seed: int = 0) -> CheckResult:
-    """One finding over all subsets."""
+    """At most one finding, on all subsets."""
     moving = informative_coordinates(samples[TRAIN].positions)
     if not moving.any():
         return CheckResult((), {"not_measured": "no coordinate moves"})
@@ -45,7 +45,7 @@ def check(samples: Mapping[str, Samples], seed: int = 0) -> CheckResult:
     numbers: dict[str, Any] = {"degree_of_fit": fit.degree, "rows_fitted": fit.n_fitted}
     if fit.degree == 0:
         return CheckResult((), numbers | {"not_measured": "too few distinct rows to fit a plane through"})
-    limit = np.maximum(FAR_SCALES * fit.scale, FAR_REACH * fit.reach)
+    limit = np.maximum(FAR_SCALES * fit.scale, FAR_SHARE * fit.extent)
     excess = np.empty(len(commands))
     for part in chunks(len(commands)):
         excess[part] = (np.abs(fit.residuals(commands[part], positions[part])) / limit).max(axis=1)
@@ -82,9 +82,9 @@ def check(samples: Mapping[str, Samples], seed: int = 0) -> CheckResult:
         "gross_outliers",
         WARNING,
         marked,
-        f"{counted(int(mask.sum()), 'row')} up to {worst:.3g} mm from where the rows around say the robot is; "
-        f"typically they are {numbers['typical_residual_mm']:.2g} mm off.",
-        "Probably a lost marker, a swapped one or a failed simulation. A few such rows set the RMSE: look at them "
-        "before you trust it, and read the MAE and the 95th percentile.",
+        f"{counted(int(mask.sum()), 'row')} lie up to {worst:.3g} mm from where the rows around them say that the "
+        f"robot is; a typical row lies {numbers['typical_residual_mm']:.2g} mm off.",
+        "The cause is probably a lost or swapped marker, or a failed simulation. A few such rows dominate the RMSE: "
+        "check them before you trust it, and read the MAE and the 95th percentile.",
     )
     return CheckResult((finding,), numbers)

@@ -1,8 +1,8 @@
-"""Near copies: rows of the other subsets whose command all but stands in train.
+"""Check for near copies: rows of the other subsets whose command is almost one of `train`.
 
-The yardstick is local: the spacing of train around the nearest train command. Where train itself comes in tight bunches
-(one command repeated with jitter), that is the distance to the next bunch, found as a gap in the sorted distances to
-its neighbours. Distances are Euclidean, in standard deviations of each command on train.
+Near is measured against the spacing of train around the nearest train command. Where train itself comes in tight
+bunches (one command repeated with jitter), that is the distance to the next bunch, which shows as a gap in the sorted
+distances to its neighbours. Distances are Euclidean, in standard deviations of each command on train.
 """
 
 from __future__ import annotations
@@ -20,16 +20,16 @@ from softkin.data.audit.findings import LEAK, LEAK_CONSEQUENCES, CheckResult, fi
 
 #: A command nearer than this share of the local spacing is a near copy.
 NEAR_SHARE = 0.01
-#: Neighbours are sorted distances; one that is this many times farther than the one before starts the next bunch.
+#: A neighbour that is this many times farther than the one before starts the next bunch; this many are compared.
 GAP, N_NEIGHBOURS = 10.0, 256
 #: By chance, at most this share of independent rows is so near (with a single command; rarer with more). More rows than
-#: such chance brings once in a million datasets are a leak.
+#: chance brings in one of a million datasets are a leak.
 CHANCE_SHARE, CHANCE_OF_FALSE_ALARM = 0.02, 1e-6
-MAX_TRAIN_COMMANDS, MAX_ROWS_LOOKED_AT = 100_000, 2_000
+MAX_TRAIN_COMMANDS, MAX_ROWS_CHECKED = 100_000, 2_000
 
 
 def check(samples: Mapping[str, Samples], seed: int = 0) -> CheckResult:
-    """A finding per subset with too many near copies; exact copies are left to their own check."""
+    """A finding for each subset with too many near copies; exact copies are left to their own check."""
     train = samples[TRAIN].commands
     scale = command_scale(train)
     distinct = train[first_of_each(row_groups(train))] / scale
@@ -38,16 +38,16 @@ def check(samples: Mapping[str, Samples], seed: int = 0) -> CheckResult:
     if len(distinct) < 3:
         return CheckResult((), numbers | {"not_measured": "train has fewer than 3 distinct commands"})
     tree = NearestNeighbors().fit(distinct)
-    typical = distinct[sampled_rows(len(distinct), MAX_ROWS_LOOKED_AT, seed)]
+    typical = distinct[sampled_rows(len(distinct), MAX_ROWS_CHECKED, seed)]
     numbers["typical_spacing"] = float(np.median(_spacing(tree, typical)))
     findings = []
     for subset, consequence in LEAK_CONSEQUENCES.items():
-        looked_at = sampled_rows(len(samples[subset]), MAX_ROWS_LOOKED_AT, seed)
-        distances, nearest = tree.kneighbors(samples[subset].commands[looked_at] / scale, n_neighbors=1)
+        checked = sampled_rows(len(samples[subset]), MAX_ROWS_CHECKED, seed)
+        distances, nearest = tree.kneighbors(samples[subset].commands[checked] / scale, n_neighbors=1)
         distances = distances[:, 0]
         spacing = _spacing(tree, distinct[nearest[:, 0]])
         near = (distances > 0) & (distances < NEAR_SHARE * spacing)
-        count, total = int(near.sum()), len(looked_at)
+        count, total = int(near.sum()), len(checked)
         numbers[subset] = {
             "rows_looked_at": total,
             "near_copies": count,
@@ -56,7 +56,7 @@ def check(samples: Mapping[str, Samples], seed: int = 0) -> CheckResult:
         }
         if count > binom.isf(CHANCE_OF_FALSE_ALARM, total, CHANCE_SHARE):
             marked = np.zeros(len(samples[subset]), dtype=bool)
-            marked[looked_at[near]] = True
+            marked[checked[near]] = True
             findings.append(
                 finding_of_rows(
                     "near_copied_commands",

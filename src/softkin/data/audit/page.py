@@ -1,4 +1,4 @@
-"""The readable page of a data card."""
+"""The readable page (Markdown) of a data card."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ MAX_ROWS_SHOWN, MAX_COLUMNS_SHOWN = 10, 12
 
 VERDICTS = {
     "leak": "**Leak.** Scores on this dataset are, at least partly, training error. Its testing tables are marked.",
-    "warning": "**With care.** Read what was found before you trust a score.",
-    "note": "**Sound.** There are remarks, none of which touches the scores.",
-    None: "**Sound.** Nothing was found.",
+    "warning": "**With care.** Read the findings before you trust a score.",
+    "note": "**Sound.** There are notes, none of which touches the scores.",
+    None: "**Sound.** There are no findings.",
 }
 
 
 def page(card: Mapping[str, Any]) -> str:
-    """Markdown of a data card (the dictionary that is written as JSON)."""
+    """The page of a data card, the dictionary that is written as JSON."""
     checks = card["checks"]
     parts = [
         f"# Data card: {card['title']}",
         f"`{card['dataset']}`. {VERDICTS[card['worst_severity']]}",
-        "## What was found",
-        *([_finding(finding) for finding in card["findings"]] or ["Nothing."]),
+        "## Findings",
+        *([_finding(finding) for finding in card["findings"]] or ["None."]),
         "## The rows",
         _rows(card),
         *_removed(card["removed_from_train"]),
@@ -78,7 +78,7 @@ def _removed(removed: Mapping[str, int] | None) -> list[str]:
     if removed is None:
         return []
     counts = ", ".join(f"{count} {kind.replace('_', ' ')}" for kind, count in removed.items())
-    return [f"Dropped from train before, by `clean`: {counts}. The numbers here are without them."]
+    return [f"Dropped from train by `clean`: {counts}. All numbers here are without them."]
 
 
 def _ranges(subsets: Mapping[str, Any]) -> str:
@@ -100,8 +100,8 @@ def _base(base: Mapping[str, Any]) -> str:
     )
     axis = ", ".join(f"{value:.4g}" for value in base["axis"])
     return (
-        f"At {origin} mm; the straight robot leaves it along ({axis}), {base['axis_from']}. Arcs from there to the "
-        "markers are what a model in curvature coordinates is fitted to; `base` in the dataset's entry declares it."
+        f"At {origin} mm; the straight robot leaves it along ({axis}), {base['axis_from']}. Models in "
+        "curvature coordinates are fitted to the arcs from there to the markers. `base` in the entry declares it."
     )
 
 
@@ -121,7 +121,7 @@ def _nearness(near: Mapping[str, Any]) -> str:
     return (
         f"Distance of a command to the nearest train command, in {near['unit']}, among "
         f"{near['train_commands_looked_at']} distinct train commands; these lie {near['typical_spacing']:.3g} apart "
-        "(median). A near copy lies nearer than a hundredth of the spacing around it, without being the same.\n\n"
+        "(median). A near copy lies nearer than a hundredth of the spacing around it, and is not equal.\n\n"
         + _table(["subset", "rows looked at", "smallest", "median", "near copies"], rows)
     )
 
@@ -141,7 +141,7 @@ def _shift(support: Mapping[str, Any], shift: Mapping[str, Any]) -> str:
         rows.append(row + [""] * (5 - len(row)))
     return (
         f"The hull is that of {support['train_commands_looked_at']} distinct train commands. The AUC is that of a "
-        "classifier told to tell the subset's commands from those of train: 0.5 is chance, 1 never fails. KS is the "
+        "classifier of the subset's commands against those of train: 0.5 is chance, 1 never fails. KS is the "
         "largest gap between two cumulative distributions (0 to 1), here of the column that differs most; every "
         f"column's, and its Wasserstein distance, is in the JSON file. At most {shift['rows_classified_at_most']} rows "
         f"of a subset were classified and {shift['rows_compared_at_most']} compared, drawn with a fixed seed.\n\n"
@@ -154,8 +154,8 @@ def _regularity(outliers: Mapping[str, Any]) -> str:
         return f"Not measured: {outliers['not_measured']}."
     return (
         f"A robust polynomial of degree {outliers['degree_of_fit']}, fitted to {outliers['rows_fitted']} rows, leaves "
-        f"a typical residual of {outliers['typical_residual_mm']:.2g} mm. It only tells outliers and is no model of "
-        "the pool. All rows were held against it."
+        f"a typical residual of {outliers['typical_residual_mm']:.2g} mm. It only finds outliers and is no point "
+        "model. All rows were compared with it."
     )
 
 

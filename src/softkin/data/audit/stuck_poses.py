@@ -1,8 +1,8 @@
-"""Stuck poses: rows with a command of their own and, bit for bit, the pose of another row, where that pose is wrong.
+"""Check for stuck poses: rows with a command of their own and, bit for bit, the pose of another row, which is wrong.
 
-A shared pose alone proves nothing: coarse position sensors, dead zones and redundant actuators share poses rightly. So
-a row counts as stuck when, besides, its pose lies far from what a smooth fit through the other rows expects. Of a
-solver that kept the last converged pose, the row that did converge is thus left alone.
+A shared pose alone proves nothing: with coarse position sensors, dead zones and redundant actuators, commands share
+poses rightly. So a row is stuck when, besides, its pose lies far from a smooth fit through the other rows. Where a
+solver kept its last converged pose, the row that did converge is therefore not stuck.
 """
 
 from __future__ import annotations
@@ -25,14 +25,14 @@ from softkin.core.samples import TRAIN, Array, Samples, informative_coordinates
 from softkin.core.smooth_fit import fit_smoothly
 from softkin.data.audit.findings import WARNING, CheckResult, counted, finding_of_rows
 
-#: Farther off the fit than both, in any coordinate: standard deviations, and share of the coordinate's reach.
-FAR_SCALES, FAR_REACH = 10.0, 0.001
+#: Far off the fit is farther than both, in any coordinate: standard deviations, and share of the coordinate's extent.
+FAR_SCALES, FAR_SHARE = 10.0, 0.001
 
 
 def stuck(commands: Array, positions: Array, seed: int = 0) -> tuple[NDArray[np.bool_], Indices, float]:
     """Mask (n_rows,) of stuck rows, the pose number (n_rows,) of each row, and how far (mm) the worst row is off.
 
-    `positions` (n_rows, n_coordinates) are informative coordinates in mm. Where the rows are too few to fit a plane
+    `positions` (n_rows, n_coordinates) are moving coordinates in mm. Where the rows are too few to fit a plane
     through, every row of a shared pose counts, and the distance is 0.
     """
     poses = row_groups(positions)
@@ -45,13 +45,13 @@ def stuck(commands: Array, positions: Array, seed: int = 0) -> tuple[NDArray[np.
         mask[sharing] = True
         return mask, poses, 0.0
     misses = np.abs(fit.residuals(commands[sharing], positions[sharing]))
-    far = (misses > np.maximum(fit.limits(commands[sharing], FAR_SCALES), FAR_REACH * fit.reach)).any(axis=1)
+    far = (misses > np.maximum(fit.limits(commands[sharing], FAR_SCALES), FAR_SHARE * fit.extent)).any(axis=1)
     mask[sharing[far]] = True
     return mask, poses, float(misses[far].max(initial=0.0))
 
 
 def check(samples: Mapping[str, Samples], seed: int = 0) -> CheckResult:
-    """One finding over all subsets."""
+    """At most one finding, on all subsets."""
     moving = informative_coordinates(samples[TRAIN].positions)
     if not moving.any():
         return CheckResult((), {"not_measured": "no coordinate moves"})
@@ -65,14 +65,14 @@ def check(samples: Mapping[str, Samples], seed: int = 0) -> CheckResult:
     }
     if not mask.any():
         return CheckResult((), numbers)
-    where = f", up to {worst:.3g} mm from where the rows around say the robot is" if worst else ""
+    distance = f", up to {worst:.3g} mm from where the rows around them say that the robot is" if worst else ""
     finding = finding_of_rows(
         "stuck_poses",
         WARNING,
         marked,
-        f"{counted(int(mask.sum()), 'row')} with a command of their own, but exactly the pose of another row "
-        f"({counted(n_poses, 'pose')} in all){where}.",
-        "A failed simulation or a frozen sensor: these positions are wrong. They set the RMSE and the widest "
-        "intervals: read the MAE and the 95th percentile. `clean` drops those of train.",
+        f"{counted(int(mask.sum()), 'row')} have a command of their own but exactly the pose of another row "
+        f"({counted(n_poses, 'pose')} in all){distance}.",
+        "These positions are wrong: a simulation failed or a sensor froze. They dominate the RMSE and the widest "
+        "intervals: read the MAE and the 95th percentile. `clean` in the dataset's entry drops those of train.",
     )
     return CheckResult((finding,), numbers)

@@ -1,4 +1,4 @@
-"""Datasets: readers by source format, the tidy table all later stages read, and its description."""
+"""Readers of datasets, by the format of their files. One file a reader, one line here."""
 
 from __future__ import annotations
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from softkin.core.errors import SoftkinError
+from softkin.core.errors import DataError
 from softkin.core.samples import Array
 
 
@@ -26,7 +26,7 @@ class ParquetColumns:
         file holds numbers or times, as numbers (n_rows,).
 
         Raises:
-            SoftkinError: a value of `numbers` is no finite number, or a column holds something else.
+            DataError: a value of `numbers` is no finite number, or a column holds something else.
         """
         import pyarrow as pa
         import pyarrow.parquet as pq
@@ -34,7 +34,7 @@ class ParquetColumns:
         try:
             table = pq.read_table(self.path, columns=[self.names[place] for place in (*numbers, *others)])
         except (pa.ArrowException, OSError) as error:
-            raise SoftkinError(f"not readable as Parquet: {error}\n  mend: write the file anew") from error
+            raise _unreadable(error) from error
         values = np.empty((table.num_rows, len(numbers)))
         for place, number in enumerate(numbers):
             values[:, place] = self._numbers(table, self.names[number])
@@ -50,16 +50,19 @@ class ParquetColumns:
         column = table.column(name)
         kind = column.type
         if not (pa.types.is_integer(kind) or pa.types.is_floating(kind) or pa.types.is_decimal(kind)):
-            raise SoftkinError(
-                f"{self.place(0)}, column '{name}': no numbers but {kind}\n"
-                "  mend: store the column as numbers, or leave it out of the entry"
+            raise DataError(
+                f"values of type {kind}, not numbers",
+                where=f"column '{name}'",
+                fix="store the column as numbers, or leave it out of the entry",
             )
         self._refuse(name, np.asarray(column.is_null()), "no value")
         try:
             numbers = np.asarray(column.cast(pa.float64()).to_numpy(), dtype=np.float64)
         except pa.ArrowInvalid as error:
-            raise SoftkinError(
-                f"column '{name}': {error}\n  mend: 64-bit floats cannot hold these whole numbers; rescale the column"
+            raise DataError(
+                f"64-bit floats cannot hold these whole numbers: {error}",
+                where=f"column '{name}'",
+                fix="rescale the column",
             ) from error
         self._refuse(name, ~np.isfinite(numbers), "no finite number")
         return numbers
@@ -79,15 +82,16 @@ class ParquetColumns:
         try:
             return np.asarray(column.cast(pa.string()).to_numpy()).astype(object)
         except pa.ArrowException as error:
-            raise SoftkinError(
-                f"column '{name}': {kind} cannot split rows\n  mend: store it as text or numbers"
+            raise DataError(
+                f"rows cannot be split by {kind}", where=f"column '{name}'", fix="store it as text or numbers"
             ) from error
 
     def _refuse(self, name: str, bad: NDArray[np.bool_], what: str) -> None:
         if bad.any():
-            more = f" (and {bad.sum() - 1} more rows)" if bad.sum() > 1 else ""
-            raise SoftkinError(
-                f"{self.place(int(np.argmax(bad)))}, column '{name}': {what}{more}\n  mend: fill it or drop the rows"
+            raise DataError(
+                what if bad.sum() == 1 else f"{what} (rows with such problems: {bad.sum()})",
+                where=f"{self.place(int(np.argmax(bad)))}, column '{name}'",
+                fix="fill the cell or delete the row",
             )
 
 
@@ -95,7 +99,7 @@ def open_parquet(path: Path) -> ParquetColumns:
     """The columns of the Parquet file `path`.
 
     Raises:
-        SoftkinError: the file is damaged.
+        DataError: the file is damaged.
     """
     import pyarrow as pa
     import pyarrow.parquet as pq
@@ -103,5 +107,9 @@ def open_parquet(path: Path) -> ParquetColumns:
     try:
         names = pq.read_schema(path).names
     except (pa.ArrowException, OSError) as error:
-        raise SoftkinError(f"not readable as Parquet: {error}\n  mend: write the file anew") from error
+        raise _unreadable(error) from error
     return ParquetColumns(path, tuple(names))
+
+
+def _unreadable(error: Exception) -> DataError:
+    return DataError(f"not readable as Parquet: {error}", fix="write the file anew")

@@ -1,4 +1,4 @@
-"""Reader of a stand-in: a recipe (JSON: robot, seed, rows) instead of a file of data, simulated when it is read."""
+"""Reader of a stand-in: its file is a recipe (JSON: robot, seed, rows), which is simulated when it is read."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 
 from softkin.core.samples import Samples
 
-#: All that decides a simulated pose.
+#: Keys of a recipe: all that decides a simulated pose.
 RECIPE = ("robot", "seed", "rows")
 
 
@@ -17,7 +17,7 @@ def read(path: str | Path, *, dataset: str, source: Mapping[str, Any]) -> dict[s
     """Samples per subset, positions in mm.
 
     Raises:
-        SoftkinError: an unknown robot, or a pose that could not be solved.
+        SoftkinError: an unknown robot, or a pose that cannot be solved.
     """
     from softkin.data.standins.simulating import simulate
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from softkin.core.errors import SoftkinError
+from softkin.core.errors import DataError
 from softkin.core.samples import EXTRAPOLATION, SUBSETS, TRAIN, VALIDATION, Array, Samples
 from softkin.data import split
 from softkin.data.readers import columns, delimited_text, parquet_columns
@@ -27,17 +27,18 @@ Table = DelimitedText | ParquetColumns
 MIN_ROWS = dict.fromkeys(SUBSETS, 2) | {TRAIN: 20}
 #: Split conformal prediction at 95 % needs 19 calibration rows.
 FEW_CALIBRATION_ROWS = 19
-#: No robot has larger numbers, and arithmetic on larger ones overflows.
+#: Arithmetic on larger numbers overflows.
 MAX_MAGNITUDE = 1e100
 #: A marker's range this many times that of the next narrower suggests that they are in different units: along an arm
 #: ranges grow gradually.
 SUSPICIOUS_GAP = 100.0
+#: First bytes of files that people take for tables -> what they are, and how to get a table.
 _MAGIC = {
-    b"PK\x03\x04": "an Excel workbook or a zip file; mend: open it and save the sheet as 'CSV UTF-8'",
-    b"\xd0\xcf\x11\xe0": "an old Excel workbook; mend: open it and save the sheet as 'CSV UTF-8'",
-    b"\x1f\x8b": "compressed by gzip; mend: unpack it",
-    b"\x89HDF": "an HDF5 file; mend: export the table as CSV or Parquet",
-    b"MATLAB": "a MATLAB file; mend: write the table with writetable(T, 'robot.csv')",
+    b"PK\x03\x04": ("an Excel workbook or a zip file", "open it and save the sheet as 'CSV UTF-8'"),
+    b"\xd0\xcf\x11\xe0": ("an old Excel workbook", "open it and save the sheet as 'CSV UTF-8'"),
+    b"\x1f\x8b": ("compressed by gzip", "unpack it"),
+    b"\x89HDF": ("an HDF5 file", "export the table as CSV or Parquet"),
+    b"MATLAB": ("a MATLAB file", "write the table with writetable(T, 'robot.csv')"),
 }
 
 
@@ -46,9 +47,9 @@ def read(path: str | Path, *, dataset: str, source: Mapping[str, Any]) -> dict[s
     coordinate 0.
 
     Raises:
-        SoftkinError: the file is not what its entry `source` says; names the file, row, column and mend.
+        DataError: the file is not what its entry `source` says; names the file, row and column.
     """
-    about = f"dataset '{dataset}', file {source['file']}"
+    where = f"dataset '{dataset}', file {source['file']}"
     try:
         table = open_table(path, source.get("delimiter"))
         commands = columns.choose(table.names, source["commands"], "commands")
@@ -61,19 +62,19 @@ def read(path: str | Path, *, dataset: str, source: Mapping[str, Any]) -> dict[s
         values, others = table.read(chosen, [place for place in by if place not in chosen])
         others += [values[:, chosen.index(place)] for place in by if place in chosen]
         if not len(values):
-            raise SoftkinError("a header, but no row of numbers\n  mend: export the file again")
+            raise DataError("a header, but no row of numbers", fix="export the file again")
         _check_magnitudes(names, values, table.place)
         samples = Samples(values[:, :n_commands], _spatial(values[:, n_commands:], dimensions))
         subset_of = split.split(source["split"], samples.commands, others[0] if others else None, table.place)
         sizes = dict(zip(SUBSETS, np.bincount(subset_of, minlength=len(SUBSETS)).tolist(), strict=True))
         _check_sizes(sizes)
-    except SoftkinError as error:
-        raise SoftkinError(f"{about}: {error}") from error
-    for remark in (
+    except DataError as error:
+        raise error.within(where) from error
+    for what, fix in (
         *_remarks_on_columns(names, values, n_commands, dimensions, source["position_unit"]),
         *_remarks_on_sizes(sizes, split.wanted_shares(source["split"])),
     ):
-        logger.warning("%s: %s", about, remark)
+        logger.warning("%s", DataError(what, where=where, fix=fix))
     del values
     return {
         subset: Samples(samples.commands[rows], samples.positions[rows])
@@ -83,16 +84,16 @@ def read(path: str | Path, *, dataset: str, source: Mapping[str, Any]) -> dict[s
 
 
 def open_table(path: str | Path, delimiter: str | None = None) -> Table:
-    """The table in a CSV or Parquet file, told apart by their first bytes, not by name.
+    """The table in a CSV or Parquet file; its first bytes decide which it is, not its name.
 
     Raises:
-        SoftkinError: neither, or empty, or without a header.
+        DataError: the file is neither, or is empty, or has no header.
     """
     with open(path, "rb") as file:
         start = file.read(8)
-    for magic, what in _MAGIC.items():
+    for magic, (what, fix) in _MAGIC.items():
         if start.startswith(magic):
-            raise SoftkinError(f"this is {what}".replace("; mend", "\n  mend"))
+            raise DataError(f"no table, but {what}", fix=fix)
     if start.startswith(b"PAR1"):
         return parquet_columns.open_parquet(Path(path))
     return delimited_text.open_text(Path(path), delimiter)
@@ -110,9 +111,10 @@ def _check_magnitudes(names: Sequence[str], values: Array, place: Callable[[int]
     for name, column in zip(names, values.T, strict=True):
         if np.abs(column).max() > MAX_MAGNITUDE:
             row = int(np.argmax(np.abs(column)))
-            raise SoftkinError(
-                f"{place(row)}, column '{name}': too large a number: {column[row]:g}\n"
-                "  mend: correct the value or delete the row"
+            raise DataError(
+                f"too large a number: {column[row]:g}",
+                where=f"{place(row)}, column '{name}'",
+                fix="correct the value or delete the row",
             )
 
 
@@ -123,45 +125,47 @@ def _check_sizes(sizes: Mapping[str, int]) -> None:
         if size < MIN_ROWS[subset]
     ]
     if few:
-        raise SoftkinError(
-            f"{sum(sizes.values())} rows are too few: {', '.join(few)}\n  mend: record more, best some hundred or more"
+        raise DataError(
+            f"{sum(sizes.values())} rows are too few: {', '.join(few)}", fix="record more, best some hundred or more"
         )
 
 
-def _remarks_on_sizes(sizes: Mapping[str, int], wanted: Mapping[str, float]) -> Iterator[str]:
+def _remarks_on_sizes(sizes: Mapping[str, int], wanted: Mapping[str, float]) -> Iterator[tuple[str, str]]:
+    """What is suspicious about the sizes of the subsets, and its fix."""
     n_rows = sum(sizes.values())
     if sizes[VALIDATION] < FEW_CALIBRATION_ROWS:
         yield (
-            f"validation has {sizes[VALIDATION]} rows: too few for a calibrated interval at 95 %\n"
-            f"  mend: record more rows, so that it has {FEW_CALIBRATION_ROWS} or more"
+            f"validation has {sizes[VALIDATION]} rows, too few for a calibrated interval at 95 %",
+            f"record more rows, so that it has {FEW_CALIBRATION_ROWS} or more",
         )
     off = {subset: share for subset, share in wanted.items() if abs(sizes[subset] / n_rows - share) > 0.05}
     if off:
         shares = ", ".join(f"{subset} {sizes[subset] / n_rows:.0%} for {share:.0%}" for subset, share in off.items())
         yield (
-            f"large groups of rows stay together, so subsets miss their share: {shares}\n"
-            f"  mend: record more distinct commands or groups, or another `{EXTRAPOLATION}_share` of `split`"
+            f"large groups of rows stay together, so subsets miss their share: {shares}",
+            f"record more distinct commands or groups, or write another `{EXTRAPOLATION}_share` of `split`",
         )
 
 
 def _remarks_on_columns(
     names: Sequence[str], values: Array, n_commands: int, dimensions: int, position_unit: str
-) -> Iterator[str]:
-    seen: dict[int, str] = {}
+) -> Iterator[tuple[str, str]]:
+    """What is suspicious about the columns, and its fix."""
+    first_names: dict[int, str] = {}
     for place, name in enumerate(names):
         column = values[:, place]
         if not np.ptp(column) > 0:
             if place < n_commands:
-                yield f"command '{name}' is always {column[0]:g}: no use\n  mend: leave it out of `commands`"
+                yield f"command '{name}' is always {column[0]:g}", "leave it out of `commands`"
             continue
-        twin = seen.setdefault(hash(column.tobytes()), name)
+        twin = first_names.setdefault(hash(column.tobytes()), name)
         if twin != name:
-            yield f"columns '{twin}' and '{name}' hold the same numbers\n  mend: leave one out, or export again"
+            yield f"columns '{twin}' and '{name}' hold the same numbers", "leave one out, or export the file again"
     units = {unit for name in names[n_commands:] if (unit := columns.unit_of(name))}
     if units - {position_unit}:
         yield (
-            f"the names of the columns say {', '.join(sorted(units))}, `position_unit` says {position_unit}\n"
-            "  mend: correct `position_unit`, or bring all columns to one unit"
+            f"the names of the columns say {', '.join(sorted(units))}, but `position_unit` says {position_unit}",
+            "correct `position_unit`, or bring all columns to one unit",
         )
     sample = values[:: max(1, len(values) // 10_000), n_commands:]
     ranges = np.subtract(*np.percentile(sample, [99, 1], axis=0)).reshape(-1, dimensions).max(axis=1)
@@ -173,6 +177,6 @@ def _remarks_on_columns(
         narrow, wide = (names[n_commands + dimensions * int(marker)] for marker in order[place : place + 2])
         yield (
             f"mixed units? the marker of '{wide}' ranges over {ranges[order[place + 1]]:g}, that of '{narrow}' over "
-            f"{ranges[order[place]]:g}, {gaps[place]:.0f} times less, and none in between\n"
-            "  mend: bring all markers to one unit; if the second is fixed to the base, leave it out"
+            f"{ranges[order[place]]:g}, {gaps[place]:.0f} times less, and none in between",
+            "bring all markers to one unit; if the second is fixed to the base, leave it out",
         )

@@ -38,7 +38,15 @@ def base_states(rod: Rod, loads: Loads, quaternion: Array, base_moments: Array) 
 
 
 def march(rod: Rod, loads: Loads, state: Array, step: float, n_steps: int) -> list[Array]:
-    """The `state` (n_state, n_rows) and those after it, `step` mm apart: classical Runge-Kutta of order 4."""
+    """The states (n_state, n_rows) along the rod, integrated by the classical Runge-Kutta method of order 4.
+
+    Parameters:
+        rod: the rod.
+        loads: its loads, n_rows of them.
+        state: where integration starts, (n_state, n_rows); the first of the result.
+        step: distance of two states in mm; negative towards the base.
+        n_steps: number of states after the first.
+    """
     rates = _Rates(rod, loads)
     states = [state]
     for _ in range(n_steps):
@@ -52,7 +60,7 @@ def march(rod: Rod, loads: Loads, state: Array, step: float, n_steps: int) -> li
 
 
 class _Rates:
-    """The derivative of the state by s. Remembers the tendons' last tangents, from which the next ones are found."""
+    """The derivative of the state by s. Keeps the tendons' last tangents, from which the next ones are iterated."""
 
     def __init__(self, rod: Rod, loads: Loads) -> None:
         self.rod = rod

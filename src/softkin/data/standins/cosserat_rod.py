@@ -15,7 +15,7 @@ import logging
 import numpy as np
 from numpy.typing import NDArray
 
-from softkin.core.errors import SoftkinError
+from softkin.core.errors import ConfigError
 from softkin.core.samples import Array
 from softkin.data.standins.cosserat_equations import M, N, Q, R, base_states, cross, march
 from softkin.data.standins.rod import Loads, Rod, Shape
@@ -38,11 +38,17 @@ def solve(
 ) -> Shape:
     """Stable equilibrium shapes of `rod`, clamped at the origin, under each row of `loads`.
 
-    `base_rotation` (3, 3) turns the rod's axes at the base into global axes; None leaves them as they are. `label`
-    marks lines of progress in the log. The error in a position falls with the fourth power of `n_elements`.
+    The error in a position falls with the fourth power of `n_elements`.
+
+    Parameters:
+        rod: the rod.
+        loads: its loads, one row per shape.
+        n_elements: steps of integration from base to tip.
+        base_rotation: (3, 3), turns the rod's axes at the base into global axes; None leaves them as they are.
+        label: starts the lines of progress in the log.
 
     Raises:
-        SoftkinError: a row for which no stable equilibrium was found; names the row and its loads.
+        ConfigError: a row has no stable equilibrium; names the row and its loads.
     """
     from scipy.spatial.transform import Rotation
 
@@ -78,10 +84,11 @@ def _equilibria(rod: Rod, loads: Loads, quaternion: Array, n_elements: int, firs
             return solution
     row = loads.rows(left[:1])
     carried = ", ".join(f"{name} {getattr(row, name)[0].round(6).tolist()}" for name in Loads.__slots__)
-    raise SoftkinError(
-        f"rod, row {first_row + left[0]}: no stable equilibrium found ({len(left)} of {len(loads)} rows of its batch)\n"
-        f"  loads: {carried}\n  mend: smaller loads, a stiffer or shorter rod (it may buckle), or more elements than "
-        f"{n_elements}"
+    raise ConfigError(
+        f"no stable equilibrium ({len(left)} of {len(loads)} rows of its batch have none)\n  loads: {carried}",
+        where=f"rod, row {first_row + left[0]}",
+        fix=f"make the loads smaller or the rod stiffer or shorter (it may buckle), or take more elements than "
+        f"{n_elements}",
     )
 
 
@@ -97,7 +104,7 @@ def _newton(
         shots = np.tile(moments[:, active], 4)
         for axis in range(3):
             shots[axis, (axis + 1) * n : (axis + 2) * n] += NUDGE * scale
-        with np.errstate(all="ignore"):  # a row that runs away becomes nan, and is left unsolved
+        with np.errstate(all="ignore"):  # a row that diverges becomes nan, and is left unsolved
             base = base_states(rod, here, quaternion, shots)
             tip = march(rod, here, base, rod.length / n_elements, n_elements)[-1][M] - here.tip_moment.T
             shot = tip.reshape(3, 4, n)

@@ -1,7 +1,7 @@
-"""A soft arm with three pressure chambers and seven markers, in the place of ABAQUS.
+"""A simulated soft arm with three pressure chambers and seven markers, the stand-in for ABAQUS.
 
-Of the size, command ranges and units of the published arm: 1.8 m, standing on its base, seven markers 0.3 m apart along
-one side, the first on the clamped base. A command is the pressure load of a chamber as the published files give it, in
+It has the size, command ranges and units of the published arm: 1.8 m, standing on its base, seven markers 0.3 m apart
+along one side, the first on the clamped base. A command is the pressure load of a chamber as in the published files, in
 MPa and negative where the chamber is inflated: one chamber does most of the work, the other two trim. The arm is
 moulded with a slight bow, and leans at rest as the published one does.
 """

@@ -1,4 +1,4 @@
-"""What a stand-in is, and how its commands are drawn."""
+"""The type of a stand-in, and ways to draw its commands."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a rod is, what loads it and what shape it takes. Units: mm, N, MPa (N/mm2), radians.
+"""A Cosserat rod, its loads and its shape, as values. Units: mm, N, MPa (N/mm2), radians.
 
 The rod's own axes: z along its centreline, x and y across. Its reference shape is straight along z unless it has a
 `natural_curvature`. Global axes are those of the positions.
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from softkin.core.errors import SoftkinError
+from softkin.core.errors import ConfigError
 from softkin.core.samples import Array
 
 Triple = tuple[float, float, float]
@@ -109,12 +109,22 @@ def loads(
     slides: Array | float = 0.0,
     pressures: Array | float = 0.0,
 ) -> Loads:
-    """Loads of `n_rows` rods like `rod`; each is broadcast to its shape in `Loads`, and zero where not given.
+    """Loads of `n_rows` rods, checked; each load is broadcast over the rows, and is zero where it is left out.
+
+    Parameters:
+        rod: whose tendons and chambers the loads are for.
+        n_rows: number of rows.
+        tip_force: (n_rows, 3) in N, global axes.
+        tip_moment: (n_rows, 3) in N mm, global axes.
+        distributed_force: (n_rows, 3) in N/mm of reference length, global axes.
+        tensions: (n_rows, n_tendons) in N, at the base.
+        slides: (n_rows, n_tendons) from -1 to 1, as in `Loads`.
+        pressures: (n_rows, n_chambers) in MPa above ambient.
 
     Raises:
-        SoftkinError: a value that is not finite, a tendon that pushes, or a shape that does not fit the rod.
+        ConfigError: a value that is not finite, a tendon that pushes, or a shape that does not fit the rod.
     """
-    given = {
+    values = {
         "tip_force": (tip_force, 3),
         "tip_moment": (tip_moment, 3),
         "distributed_force": (distributed_force, 3),
@@ -123,22 +133,26 @@ def loads(
         "pressures": (pressures, len(rod.chambers)),
     }
     arrays = {}
-    for name, (value, width) in given.items():
+    for name, (value, width) in values.items():
         try:
             arrays[name] = np.broadcast_to(np.asarray(value, dtype=np.float64), (n_rows, width))
         except ValueError as error:
-            raise SoftkinError(
-                f"rod loads, field '{name}': shape {np.shape(value)} does not fit ({n_rows}, {width})\n"
-                "  mend: one row per rod, one column per axis, tendon or chamber of the rod"
+            raise ConfigError(
+                f"shape {np.shape(value)} does not fit ({n_rows}, {width})",
+                where=f"rod loads, field '{name}'",
+                fix="give one row per rod, and one column per axis, tendon or chamber of the rod",
             ) from error
         bad = ~np.isfinite(arrays[name]).all(axis=1)
         if bad.any():
-            raise SoftkinError(f"rod loads, field '{name}', row {np.argmax(bad)}: not finite; mend: correct the row")
+            raise ConfigError(
+                "not finite", where=f"rod loads, field '{name}', row {np.argmax(bad)}", fix="correct the row"
+            )
     slack = (arrays["tensions"] < 0).any(axis=1)
     if slack.any():
-        raise SoftkinError(
-            f"rod loads, field 'tensions', row {np.argmax(slack)}: a tendon cannot push\n"
-            "  mend: give the tendon on the other side the tension"
+        raise ConfigError(
+            "a tendon cannot push",
+            where=f"rod loads, field 'tensions', row {np.argmax(slack)}",
+            fix="give the tension to the tendon on the other side",
         )
     return Loads(**arrays)
 

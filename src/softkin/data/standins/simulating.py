@@ -1,4 +1,4 @@
-"""Simulate: the name of a stand-in -> samples per subset in mm, split as the published data are."""
+"""Simulate a stand-in: its name -> samples per subset in mm, split as the published data are."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from softkin.core.errors import SoftkinError
+from softkin.core.errors import ConfigError
 from softkin.core.samples import EXTRAPOLATION, SUBSETS, TEST, TRAIN, VALIDATION, Array, Samples
 from softkin.data.standins import STANDINS
 
@@ -21,16 +21,17 @@ def simulate(name: str, *, n_rows: Mapping[str, int] | int, seed: int) -> dict[s
     `n_rows` gives the rows of each subset, or their total, of which 30 % are extrapolation and the rest 80/10/10.
 
     Raises:
-        SoftkinError: an unknown stand-in, sizes that cannot be split, or a pose that could not be solved.
+        ConfigError: an unknown stand-in, sizes that cannot be split, or a pose that cannot be solved.
     """
     if name not in STANDINS:
-        raise SoftkinError(f"stand-in '{name}': unknown\n  mend: one of {', '.join(STANDINS)}")
+        raise ConfigError("unknown", where=f"stand-in '{name}'", fix=f"name one of {', '.join(STANDINS)}")
     robot = STANDINS[name]
     sizes = subset_sizes(n_rows) if isinstance(n_rows, int) else dict(n_rows)
     if set(sizes) != set(SUBSETS) or min(sizes.values()) < 1:
-        raise SoftkinError(
-            f"stand-in '{name}', rows {sizes}: every subset needs a row\n"
-            f"  mend: give {', '.join(SUBSETS)} one row or more each, or a total of 8 or more"
+        raise ConfigError(
+            "every subset needs a row",
+            where=f"stand-in '{name}', rows {sizes}",
+            fix=f"give {', '.join(SUBSETS)} one row or more each, or a total of 8 or more",
         )
     drawing, measuring, splitting = np.random.default_rng(seed).spawn(3)
     commands = robot.draw(sum(sizes.values()), drawing)

@@ -1,7 +1,7 @@
-"""A soft finger with two antagonistic pairs of tendons and a marker at its tip: ideal, and as on a bench.
+"""A simulated soft finger with two antagonistic pairs of tendons and a marker at its tip: ideal, and as on a bench.
 
-Of the size, command ranges and units of ELASTICA and FINGER. Both tendons of a pair are under tension at rest; a
-command shifts tension from one to the other, so that none goes slack. The ideal finger takes that difference in N:
+Their size, command ranges and units are those of ELASTICA and FINGER. Both tendons of a pair are under tension at rest;
+a command shifts tension from one to the other, so that none goes slack. The ideal finger takes that difference in N:
 positive bends it towards +x (first command) or +y (second). The finger on the bench takes motor counts, turned like
 FINGER's axes: its first command bends it towards +y, its second towards -x. There tendons rub in their channels, the
 drives have backlash, and a motion capture system measures the tip.
@@ -62,10 +62,10 @@ def _poses(commands: Array, _: np.random.Generator) -> Array:
 
 
 def play(commands: Array, half_width: float) -> tuple[Array, Array]:
-    """The play operator along a sequence of commands (n_rows, n_commands), from rest at zero.
+    """Backlash: the play operator along a sequence of commands (n_rows, n_commands), from rest at zero.
 
-    Returns what comes out of the drive, within `half_width` of the command, and where in its play the drive stands,
-    from -1 to 1 (the stop operator); both (n_rows, n_commands). Source: Krasnosel'skii and Pokrovskii (1989),
+    Returns the output of the drive, within `half_width` of the command, and where in its play the drive stands, from
+    -1 to 1 (the stop operator); both (n_rows, n_commands). Source: Krasnosel'skii and Pokrovskii (1989),
     Systems with Hysteresis.
     """
     within, last = np.zeros(commands.shape[1]), np.zeros(commands.shape[1])

@@ -1,1 +1,1 @@
-"""Our own scikit-learn estimators: what no library offers."""
+"""Scikit-learn estimators that no library offers."""

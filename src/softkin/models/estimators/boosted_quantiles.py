@@ -13,7 +13,7 @@ from softkin.core.samples import Array
 
 
 class BoostedQuantiles(RegressorMixin, BaseEstimator):  # type: ignore[misc]
-    """Predicts (n_rows, n_quantiles); neighbouring quantiles may cross, since they know nothing of each other."""
+    """Predicts (n_rows, n_quantiles); quantiles may cross, since each is fitted by itself."""
 
     def __init__(self, quantiles: Sequence[float], params: Mapping[str, Any], random_state: int = 0) -> None:
         self.quantiles = quantiles

@@ -1,4 +1,4 @@
-"""An exact Gaussian process whose cost is known beforehand."""
+"""Exact Gaussian process with bounded cost of the likelihood search."""
 
 from __future__ import annotations
 
@@ -31,18 +31,26 @@ LENGTH_SCALE_BOUNDS = (1e-2, 1e3)
 NOISE_BOUNDS = (1e-10, 1.0)
 #: Scaled objective of a kernel that cannot be factorised: worse than any, and finite for the line search.
 SINGULAR = 1e6
-#: Predicted at once: with 6000 trained rows the kernel takes half a gigabyte.
+#: Rows predicted at once: with 6000 rows of `train` their kernel takes half a gigabyte.
 ROWS_AT_ONCE = 10_000
 JITTERS = (1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5)
 
 
 class BoundedGaussianProcess(RegressorMixin, BaseEstimator):  # type: ignore[misc]
-    """Learn the kernel by maximum likelihood on at most `learning_rows` rows, then condition on all rows.
+    """Learns the kernel by maximum likelihood on at most `learning_rows` rows, then conditions on all rows.
 
     The kernel is shared by all coordinates, so each likelihood and the final posterior need one Cholesky factor
-    (Rasmussen and Williams 2006, Algorithm 2.1). `max_iter` bounds L-BFGS. `kernel` is none, rbf, matern32,
-    matern52 (a length scale per command) or rational_quadratic; `trend` adds none, a linear or a quadratic kernel;
-    paper_linear is the bare DotProduct() + WhiteKernel() of the paper.
+    (Rasmussen and Williams 2006, Algorithm 2.1).
+
+    Parameters:
+        kernel: none, rbf, matern32, matern52 (a length scale per command) or rational_quadratic.
+        trend: the kernel that is added: none, linear or quadratic; paper_linear is the bare
+            DotProduct() + WhiteKernel() of the paper.
+        initial_length_scale: where the search for length scales starts, in standard deviations of a command.
+        initial_noise: where the search for the noise variance starts, in variances of a coordinate.
+        learning_rows: rows at most that the likelihood is computed on.
+        max_iter: bound on the iterations of L-BFGS.
+        random_state: seed of the draw of those rows.
     """
 
     def __init__(
@@ -121,8 +129,8 @@ class BoundedGaussianProcess(RegressorMixin, BaseEstimator):  # type: ignore[mis
 
         scale = max(1.0, abs(float(objective(start)[0])))
         options = {"maxiter": self.max_iter}
-        found = minimize(scaled, start, method="L-BFGS-B", jac=True, bounds=bounds, options=options)
-        return found.x, found.fun * scale
+        optimum = minimize(scaled, start, method="L-BFGS-B", jac=True, bounds=bounds, options=options)
+        return optimum.x, optimum.fun * scale
 
 
 def _parts(X: Array) -> list[Array]:

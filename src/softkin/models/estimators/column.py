@@ -1,4 +1,4 @@
-"""A fitted model that repeats a prediction it is given: lets MAPIE calibrate stored predictions."""
+"""Regressor that returns one column of its input: lets MAPIE calibrate stored predictions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A polynomial, and a regressor on its residuals: outside the rows it saw, a tree ends at a trend, not a constant."""
+"""Polynomial trend with a regressor on its residuals: in extrapolation a tree then continues a trend, no constant."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from sklearn.linear_model import LinearRegression
 from sklearn.pipeline import make_pipeline
 from sklearn.preprocessing import PolynomialFeatures
 
-from softkin.core.errors import SoftkinError
+from softkin.core.errors import ConfigError
 from softkin.core.samples import Array, Params, Samples
 from softkin.models.spec import TRENDS
 
@@ -42,22 +42,22 @@ class Detrended(RegressorMixin, BaseEstimator):  # type: ignore[misc]
         return np.asarray(trend[:, None] + rest if rest.ndim > trend.ndim else trend + rest)
 
     def residuals(self, samples: Samples) -> Samples:
-        """What `regressor` sees of samples whose positions are targets (n_rows, n_targets)."""
+        """What `regressor` is fitted on, of samples whose positions are targets (n_rows, n_targets)."""
         trend = self.trend_.predict(samples.commands).reshape(samples.positions.shape)
         return Samples(samples.commands, (samples.positions - trend) / self.scale_)
 
 
 def detrended(build: Callable[[Params], Any], params: Params) -> Any:
-    """The regressor that `build` makes of `params` without their `trend` (one of `TRENDS`, default none), on what that
-    trend leaves.
+    """The regressor that `build` makes of `params` without their `trend` (one of `TRENDS`, default none), on the
+    residuals of that trend.
 
     Raises:
-        SoftkinError: there is no such trend.
+        ConfigError: there is no such trend.
     """
     rest = dict(params)
     trend = rest.pop("trend", TRENDS[0])
     if trend not in TRENDS:
-        raise SoftkinError(f"trend '{trend}' is none of {', '.join(TRENDS)}")
+        raise ConfigError(f"'{trend}' is no trend", where="trend", fix=f"set one of {', '.join(TRENDS)}")
     degree = TRENDS.index(trend)
     return Detrended(build(rest), degree) if degree else build(rest)
 
@@ -65,7 +65,7 @@ def detrended(build: Callable[[Params], Any], params: Params) -> Any:
 def spread_around(
     spread: Callable[[Any, Samples, Array], Array], regressor: Any, train: Samples, commands: Array
 ) -> Array:
-    """The `spread` of a regressor that may be `Detrended`: the trend is taken as known."""
+    """The `spread` (n_rows, n_targets) of a regressor that may be `Detrended`; the trend counts as known."""
     if not isinstance(regressor, Detrended):
         return spread(regressor, train, commands)
     return np.asarray(spread(regressor.regressor_, regressor.residuals(train), commands) * regressor.scale_)

@@ -1,4 +1,4 @@
-"""A regressor commands -> positions whose targets live in a space of their own."""
+"""Regressor from commands to positions that is fitted in a target space."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from softkin.core.samples import Array
 
 
 class KinematicRegressor(RegressorMixin, BaseEstimator):  # type: ignore[misc]
-    """Fits `regressor` to positions as `transformer` sees them, and maps its predictions back to mm.
+    """Fits `regressor` to positions that `transformer` takes to targets, and maps its predictions back to mm.
 
-    scikit-learn's TransformedTargetRegressor but for one thing: the transformer may learn from the commands too.
+    Differs from scikit-learn's TransformedTargetRegressor in that the transformer is fitted on the commands too.
     """
 
     def __init__(self, regressor: Any, transformer: Any) -> None:

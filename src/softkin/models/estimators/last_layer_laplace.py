@@ -1,4 +1,4 @@
-"""The Laplace approximation of a network's last layer: a Bayesian network for the price of a Cholesky factor."""
+"""Laplace approximation of a network's last layer: a Bayesian network at the cost of one Cholesky factor."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A model whose every refit was done before: lets MAPIE cross-calibrate stored predictions."""
+"""Regressor that looks up the predictions of refits: lets MAPIE cross-calibrate stored predictions."""
 
 from __future__ import annotations
 
@@ -13,7 +13,10 @@ from softkin.core.samples import Array
 
 
 class Refits:
-    """Stored predictions by the rows that were fitted on; its copies are itself, so that cloning costs nothing."""
+    """Stored predictions (n_rows,) by the rows that were fitted on, and those `of_all` rows.
+
+    A copy is the object itself, so that cloning costs nothing.
+    """
 
     def __init__(self, predictions: Mapping[bytes, Array], of_all: Array) -> None:
         self.predictions = predictions
@@ -24,24 +27,25 @@ class Refits:
 
 
 def key(rows: NDArray[Any]) -> bytes:
-    """Identifies a fit by the numbers of its rows, in their order."""
+    """The key of a fit: the numbers of its rows, in their order."""
     return np.asarray(rows, dtype=np.int64).tobytes()
 
 
 class Refitted(RegressorMixin, BaseEstimator):  # type: ignore[misc]
-    """`fit(X, y)` looks up the fit on the rows numbered in X (n_rows, 1); `predict(X)` what it said of those rows.
+    """`fit(X, y)` looks up the refit on the rows numbered in X (n_rows, 1); `predict(X)` returns its predictions of
+    the rows numbered in X.
 
-    On all rows, which MAPIE fits too for its point prediction, it gives the mean of the refits.
+    For rows that no refit was fitted on (MAPIE fits all rows for its point prediction) it predicts `Refits.of_all`.
     """
 
     def __init__(self, refits: Refits) -> None:
         self.refits = refits
 
     def fit(self, X: Array, y: Array) -> Self:  # noqa: ARG002 (scikit-learn's signature)
-        """Find the predictions of this fit."""
-        self.found_ = self.refits.predictions.get(key(X[:, 0]), self.refits.of_all)
+        """Look up the predictions of this fit."""
+        self.predictions_ = self.refits.predictions.get(key(X[:, 0]), self.refits.of_all)
         return self
 
     def predict(self, X: Array) -> Array:
         """Stored predictions (n_rows,)."""
-        return self.found_[np.asarray(X)[:, 0].astype(np.int64)]
+        return self.predictions_[np.asarray(X)[:, 0].astype(np.int64)]

@@ -1,4 +1,4 @@
-"""Learners of quantiles, for QR and CQR: one file a learner, one line here."""
+"""Registry of quantile regressors, for QR and CQR: one file each, one line here."""
 
 from __future__ import annotations
 

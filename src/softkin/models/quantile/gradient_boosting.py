@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def build(params: Params, quantiles: Sequence[float], seed: int, threads: int) -> Any:
-    """One GradientBoostingRegressor(loss="quantile", **params) per quantile, on what is left of a `trend`."""
+    """One GradientBoostingRegressor(loss="quantile", **params) per quantile, on the residuals of a `trend`."""
     from softkin.models.estimators.boosted_quantiles import BoostedQuantiles
     from softkin.models.estimators.detrended import detrended
 
@@ -22,7 +22,7 @@ def build(params: Params, quantiles: Sequence[float], seed: int, threads: int) -
 
 
 def search_space(trial: BaseTrial) -> Params:
-    """At most 150 trees: two ensembles per coordinate and level make it the dearest fit of all."""
+    """At most 150 trees: with two ensembles per coordinate and level no fit costs more."""
     return {
         "trend": trial.suggest_categorical("trend", TRENDS),
         "n_estimators": trial.suggest_int("n_estimators", 50, 150, step=25),

@@ -1,4 +1,4 @@
-"""What a quantile regressor is."""
+"""Specification of a quantile regressor: an entry of the registry."""
 
 from __future__ import annotations
 

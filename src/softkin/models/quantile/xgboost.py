@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def build(params: Params, quantiles: Sequence[float], seed: int, threads: int) -> Any:
-    """XGBRegressor(objective="reg:quantileerror", **params), on what is left of a `trend`."""
+    """XGBRegressor(objective="reg:quantileerror", **params), on the residuals of a `trend`."""
     from xgboost import XGBRegressor
 
     from softkin.models.estimators.detrended import detrended

@@ -1,4 +1,4 @@
-"""Target spaces: what a model is fitted to. One file a space, one line here."""
+"""Registry of target spaces, what a model is fitted to: one file a space, one line here."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Positions as they are: the paper's target space."""
+"""Cartesian target space: standardised positions, as in the paper."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from softkin.models.target_spaces.spec import TargetSpace
 
 
 def transformer(skip_constant: bool, base: Mapping[str, Any] | None) -> PositionScaler:
-    """Positions standardised."""
+    """Unfitted transformer of positions to standardised positions."""
     return PositionScaler(skip_constant)
 
 

@@ -1,4 +1,4 @@
-"""What a target space is."""
+"""Specification of a target space: an entry of the registry."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 
 @dataclass(frozen=True, slots=True)
 class TargetSpace:
-    """What a model is fitted to in place of positions in mm.
+    """One target space: what a model is fitted to in place of positions in mm.
 
     `transformer(skip_constant, base)` returns an unfitted invertible transformer: `fit(positions, commands)`,
     `transform(positions)`, `inverse_transform(targets)`, `inverse_spread(targets, spread)`; positions (n_rows,

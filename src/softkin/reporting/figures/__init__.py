@@ -1,4 +1,4 @@
-"""Figures: one file a kind (frame + plot), one line here. In the order in which a reader wants them."""
+"""Registries of figures: one file a figure (frame and plot), one line here, in the order of the report."""
 
 from __future__ import annotations
 
@@ -27,18 +27,18 @@ from softkin.reporting.figures.spec import CampaignResults, DatasetResults, Figu
 FIGURES: dict[str, FigureSpec[DatasetResults]] = {
     "ranking": ranking.FIGURE,
     "robot": robot.FIGURE,
-    "believed": workspace_predictions.FIGURE,
+    "workspace_predictions": workspace_predictions.FIGURE,
     "position_curves": position_curves.FIGURE,
     "distribution": distribution.FIGURE,
     "distance": distance.FIGURE,
     "workspace": workspace.FIGURE,
     "residuals": residuals.FIGURE,
     "intervals_paper": intervals.PAPER_RECIPE,
-    "intervals_chosen": intervals.CHOSEN_MODEL,
+    "intervals_deployed": intervals.DEPLOYED_MODEL,
     "calibration": calibration.FIGURE,
     "width": width.FIGURE,
     "conditional_coverage": conditional_coverage.FIGURE,
-    "outside": extrapolation.FIGURE,
+    "extrapolation": extrapolation.FIGURE,
     "target_spaces": target_spaces.FIGURE,
     "tuning_history": tuning_history.FIGURE,
     "importance": importance.FIGURE,

@@ -1,4 +1,4 @@
-"""Calibration curve: coverage against the confidence level that was asked for, per method."""
+"""Calibration curve: coverage on `test` against the confidence level, per interval method."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from softkin.core.runs import Run
 from softkin.core.samples import TEST, TRAIN, coordinate_columns, informative_coordinates
 from softkin.data.table import read_subset
 from softkin.models.spec import PAPERS_RUN
-from softkin.reporting.figures.reading import candidates, chosen
+from softkin.reporting.figures.reading import candidates, deployed
 from softkin.reporting.figures.spec import DatasetResults, FigureSpec
 from softkin.reporting.figures.style import BLACK, LIGHT, LOOKS, PAGE, heading, legend_below, panels, sample
 
@@ -25,12 +25,11 @@ MEAN = "mean_informative"
 
 
 def frame(results: DatasetResults) -> pd.DataFrame:
-    """Columns model, preset, interval_method, title, guarantee, confidence_level, coverage (mean over the coordinates
-    that move), lowest and highest (of a coordinate), band_low and band_high, on `test`.
+    """Columns model, preset, interval_method, title, guarantee, confidence_level, coverage (mean over the moving
+    coordinates), lowest and highest (of a coordinate), band_low and band_high, on `test`.
 
-    The band is where the coverage of one coordinate must lie in 95 of 100 cases, exactly, and not a number where
-    nothing is promised. Shown are the chosen model and the paper's, and of the quantile regressors the paper's and
-    the best.
+    The band holds the coverage of one coordinate in 95 of 100 cases, exactly; it is NaN where a method has no
+    guarantee. Shown are the deployed model and the paper's, and of the quantile regressors the paper's and the best.
     """
     table = pd.read_csv(results.interval_metrics)
     table = table[(table["subset"] == TEST) & table["interval_method"].isin(list(results.intervals))]
@@ -41,17 +40,17 @@ def frame(results: DatasetResults) -> pd.DataFrame:
     averages = table[table["coordinate"] == MEAN].set_index(key)
     train = read_subset(results.table, TRAIN).positions
     moving = np.array(coordinate_columns(train.shape[1] // 3))[informative_coordinates(train)]
-    single = table[table["coordinate"].isin(moving)].groupby(key, sort=False)
-    frame = averages[["guarantee", "coverage"]].join(single["coverage"].agg(lowest="min", highest="max"))
-    law = single[["coverage_low", "coverage_high", "coverage_p_value"]].first()
-    band = law[["coverage_low", "coverage_high"]].where(law["coverage_p_value"].notna())
+    by_coordinate = table[table["coordinate"].isin(moving)].groupby(key, sort=False)
+    frame = averages[["guarantee", "coverage"]].join(by_coordinate["coverage"].agg(lowest="min", highest="max"))
+    exact = by_coordinate[["coverage_low", "coverage_high", "coverage_p_value"]].first()
+    band = exact[["coverage_low", "coverage_high"]].where(exact["coverage_p_value"].notna())
     frame = frame.join(band.rename(columns={"coverage_low": "band_low", "coverage_high": "band_high"})).reset_index()
     return frame.assign(title=frame["interval_method"].map(dict(results.method_titles)))
 
 
 def _runs(results: DatasetResults, method: str) -> list[Run]:
-    """The runs whose intervals by this method are shown."""
-    best = chosen(results)
+    """The runs around which this method's intervals are shown."""
+    best = deployed(results)
     if not results.has_own_regressors[method]:
         return [PAPERS_RUN, *([best.run] if best else [])]
     pairs = candidates(results)
@@ -60,7 +59,7 @@ def _runs(results: DatasetResults, method: str) -> list[Run]:
 
 
 def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
-    """A panel for each method."""
+    """Draw a panel for each method."""
     methods = list(frame.groupby("title", sort=False))
     n_rows = -(-len(methods) // N_COLUMNS)
     n_columns = min(len(methods), N_COLUMNS)
@@ -88,10 +87,10 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
         )
         for model, preset in dict.fromkeys(zip(frame["model"], frame["preset"], strict=True))
     ]
-    samples.append(sample("as asked for", color=BLACK, linewidth=0.8, linestyle=":"))
-    samples.append(sample("exact 95% band of one coordinate", color=LIGHT, linewidth=6))
+    samples.append(sample("nominal level", color=BLACK, linewidth=0.8, linestyle=":"))
+    samples.append(sample("exact 95% range of one coordinate", color=LIGHT, linewidth=6))
     legend_below(figure, samples, 3)
-    heading(figure, results, "do intervals cover what they say?")
+    heading(figure, results, "coverage against confidence level")
     return figure
 
 
@@ -105,18 +104,19 @@ def _draw(axes: Axes, rows: pd.DataFrame) -> None:
     )
     for place, ((model, preset), part) in enumerate(runs):
         colour, mark = LOOKS[str(model)]
-        at = part["confidence_level"] + 0.004 * (place - (len(runs) - 1) / 2)
-        axes.vlines(at, part["lowest"], part["highest"], color=colour, linewidth=1.0)
+        shifted = part["confidence_level"] + 0.004 * (place - (len(runs) - 1) / 2)
+        axes.vlines(shifted, part["lowest"], part["highest"], color=colour, linewidth=1.0)
         line = "--" if (model, preset) == PAPERS_RUN else "-"
-        axes.plot(at, part["coverage"], color=colour, marker=mark, markersize=4, linewidth=1.0, linestyle=line)
+        axes.plot(shifted, part["coverage"], color=colour, marker=mark, markersize=4, linewidth=1.0, linestyle=line)
 
 
 FIGURE = FigureSpec(
     "calibration",
     "Calibration of intervals",
-    "Share of test positions inside their interval against the confidence level asked for: mean over the coordinates "
-    "that move (marks) and range of single coordinates (bars). The band is the exact law of a conformal interval of "
-    "one coordinate; methods without a band promise nothing exact.",
+    "Share of test rows whose interval holds the true position, against the confidence level: mean over the moving "
+    "coordinates (marks) and range of the single coordinates (bars). A good method follows the dotted line, its bars "
+    "within the grey band, which holds the coverage of one coordinate in 95 of 100 cases. Below the line intervals are "
+    "too narrow, above it wider than needed. A method without a band has no exact guarantee.",
     frame,
     plot,
 )

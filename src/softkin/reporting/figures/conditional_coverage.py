@@ -1,4 +1,4 @@
-"""Where a method covers and where it does not: coverage on `test` by command, position, width, marker and slab."""
+"""Conditional coverage on `test`: by command, position, interval width, marker, and in the worst slab of commands."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from softkin.reporting.figures.reading import candidates, chosen
+from softkin.reporting.figures.reading import candidates, deployed
 from softkin.reporting.figures.spec import DatasetResults, FigureSpec
 from softkin.reporting.figures.style import BLACK, PAGE, PALETTE, heading, legend_below, panels
 
@@ -21,32 +21,32 @@ PANELS = {
     "marker": "marker",
     "slab": "worst slab of\ncommand space",
 }
-#: Panels in a row: their labels keep their size on a page.
-ACROSS = 3
-#: The two engines agree, so one of them is drawn.
+#: Panels in a row; with more, labels overlap.
+N_COLUMNS = 3
+#: Both libraries of split conformal prediction give the same intervals, so one of them is drawn.
 LEFT_OUT = ("scp_crepes",)
 MARKS = "osD^vP*X"
 
 
 def frame(results: DatasetResults) -> pd.DataFrame:
-    """Rows of conditional_coverage.csv: of the chosen model and of the best CQR, with `title` of the method."""
+    """Rows of conditional_coverage.csv of the deployed model and of the best CQR, with the `title` of the method."""
     table = pd.read_csv(results.conditional, dtype={"group": str})
     choice = candidates(results)
-    best = chosen(results)
-    cqr = choice[choice["on_quantiles"]].head(1)
+    best = deployed(results)
+    cqr = choice[choice["has_own_regressors"]].head(1)
     kept = {(*best.run, method) for method in table["interval_method"]} if best else set()
     kept |= set(zip(cqr["model"], cqr["preset"], cqr["interval_method"], strict=True))
-    kept = {run for run in kept if run[2] not in LEFT_OUT}
+    kept = {intervals for intervals in kept if intervals[2] not in LEFT_OUT}
     rows = zip(table["model"], table["preset"], table["interval_method"], strict=True)
-    mine = table[np.array([row in kept for row in rows]) & table["by"].isin(PANELS)]
-    titles = mine["interval_method"].map(dict(results.method_titles))
-    return mine.assign(title=titles + ", " + mine["model"] + " " + mine["preset"])
+    shown = table[np.array([row in kept for row in rows]) & table["by"].isin(PANELS)]
+    titles = shown["interval_method"].map(dict(results.method_titles))
+    return shown.assign(title=titles + ", " + shown["model"] + " " + shown["preset"])
 
 
 def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
-    """A panel for each way to group the rows; bars are two standard errors, the line is the nominal level."""
+    """Draw a panel for each way to group the rows; bars are two standard errors, the line is the nominal level."""
     shown = [by for by in PANELS if by in set(frame["by"])]
-    n_columns = min(ACROSS, len(shown))
+    n_columns = min(N_COLUMNS, len(shown))
     n_rows = -(-len(shown) // n_columns)
     figure, axes = panels(n_rows, n_columns, PAGE, 0.6 + 2.6 * n_rows, sharey=True)
     places = [axis for row in axes for axis in row]
@@ -78,15 +78,17 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
         row[0].set_ylabel("coverage on test")
     axes[0][0].set_ylim(top=1.02)
     legend_below(figure, axes[0][0].get_legend_handles_labels()[0], 3)
-    heading(figure, results, "is the coverage there everywhere?")
+    heading(figure, results, "coverage of groups of rows")
     return figure
 
 
 FIGURE = FigureSpec(
     "conditional_coverage",
     "Conditional coverage",
-    "Coverage on test of parts of the rows: by command, position, width, marker, and in the worst slab of command "
-    "space. Bars are two standard errors, the dashed line is the level asked for.",
+    "Coverage on test of groups of rows: by command norm, position, interval width and marker, and of the worst slab "
+    "of command space. Bars are two standard errors, the dashed line is the nominal level. A good method stays at the "
+    "line in every group. A group whose bar ends below the line is one where intervals are too narrow, although the "
+    "coverage over all rows may be as asked.",
     frame,
     plot,
 )

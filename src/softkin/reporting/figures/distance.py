@@ -1,4 +1,4 @@
-"""Error against distance from what was trained on: how far a model can be trusted outside."""
+"""Error of a model against the distance of a command from the nearest one of `train`."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pandas as pd
 from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, Array
 from softkin.data.table import read_subset
 from softkin.models.spec import PAPERS_RUN
-from softkin.reporting.figures.reading import chosen, mean_marker_errors
+from softkin.reporting.figures.reading import deployed, mean_marker_errors
 from softkin.reporting.figures.spec import DatasetResults, FigureSpec
 from softkin.reporting.figures.style import (
     BLACK,
@@ -33,12 +33,12 @@ N_PARTS = 12
 
 def frame(results: DatasetResults) -> pd.DataFrame:
     """Columns model, preset, interval_method, subset, distance, error_mm: a row per row of `test` and `extrapolation`
-    of the chosen model and of the paper's.
+    of the deployed model and of the paper's.
 
     `distance` is that of the nearest command of `train`, each command in units of its standard deviation on `train`;
-    `error_mm` the distance between true and predicted marker, averaged over the markers that move.
+    `error_mm` the distance between true and predicted marker, averaged over the moving markers.
     """
-    best = chosen(results)
+    best = deployed(results)
     runs = [*([best.run] if best else []), PAPERS_RUN]
     parts = [
         pd.DataFrame(
@@ -63,7 +63,7 @@ def distances(results: DatasetResults, subset: str) -> Array:
 
 
 def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
-    """A panel for each model; the line is the median error of rows equally far away."""
+    """Draw a panel for each model; the line is the median error of rows of like distance."""
     runs = list(frame.groupby(["model", "preset"], sort=False))
     figure, axes = panels(1, len(runs), PAGE, 3.4, sharex=True, sharey=True)
     for axis, ((model, preset), rows) in zip(axes[0], runs, strict=True):
@@ -73,8 +73,8 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
             axis.plot(part["distance"], errors, ".", color=colour, markersize=2, alpha=0.6, rasterized=True)
         ordered = rows.sort_values("distance", kind="stable")
         groups = np.array_split(np.arange(len(ordered)), N_PARTS)
-        middles = [ordered.iloc[group][["distance", "error_mm"]].median() for group in groups if len(group)]
-        line = pd.DataFrame(middles).groupby("distance")["error_mm"].median()
+        medians = [ordered.iloc[group][["distance", "error_mm"]].median() for group in groups if len(group)]
+        line = pd.DataFrame(medians).groupby("distance")["error_mm"].median()
         axis.semilogy(line.index, line.clip(lower=LEAST_MM), color=BLACK, linewidth=1.4)
         axis.set_title(f"{results.model_titles[str(model)]}, {preset}")
         axis.set_xlabel("distance to the nearest train command\n(standard deviations of a command)")
@@ -83,7 +83,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     samples = [
         sample(subset, color=SUBSET_COLOURS[subset], marker=".", linestyle="") for subset in (TEST, EXTRAPOLATION)
     ]
-    legend_below(figure, [*samples, sample("median of rows equally far away", color=BLACK, linewidth=1.4)], 3)
+    legend_below(figure, [*samples, sample("median of rows of like distance", color=BLACK, linewidth=1.4)], 3)
     heading(figure, results, "error against distance from train")
     return figure
 
@@ -91,8 +91,9 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
 FIGURE = FigureSpec(
     "distance",
     "Error against distance",
-    "How far off a marker is, against the distance between the command and the nearest one of train, for the chosen "
-    "model and for the paper's gradient boosting.",
+    "Mean marker error of each row against the distance of its command from the nearest one of train, for the deployed "
+    "model and for the paper's gradient boosting. Follow the black line, the median: a model that extrapolates well "
+    "keeps it flat, one that does not lets it climb as soon as commands leave those of train.",
     frame,
     plot,
 )

@@ -1,4 +1,4 @@
-"""The paper's Figure 3: how the positions of a marker are distributed in each subset."""
+"""Distribution of a marker's positions in each subset (the paper's Figure 3)."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 def frame(results: DatasetResults) -> pd.DataFrame:
     """Columns subset, coordinate, position_mm, share: sorted positions of the marker that moves furthest on `train`,
-    and the share of rows up to each. Coordinates of it that never move are left out; no run is shown.
+    and the share of rows up to each. Its constant coordinates are left out; no run is shown.
     """
     train = read_subset(results.table, TRAIN).positions
     moving, names = informative_coordinates(train), coordinate_columns(train.shape[1] // 3)
@@ -35,7 +35,7 @@ def frame(results: DatasetResults) -> pd.DataFrame:
 
 
 def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
-    """A panel for each axis of space."""
+    """Draw a panel for each axis of space."""
     groups = list(frame.groupby("coordinate", sort=False))
     figure, axes = panels(1, len(groups), PAGE, 3.0, sharey=True)
     for axis, (coordinate, rows) in zip(axes[0], groups, strict=True):
@@ -47,15 +47,16 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     axes[0][0].set_ylabel("share of rows")
     samples = [sample(subset, color=colour, linewidth=1.8) for subset, colour in SUBSET_COLOURS.items()]
     legend_below(figure, samples, len(samples))
-    heading(figure, results, f"where marker {groups[0][0].split('_')[0]} is, in each subset", SUBSETS)
+    heading(figure, results, f"positions of marker {groups[0][0].split('_')[0]} in each subset", SUBSETS)
     return figure
 
 
 FIGURE = FigureSpec(
     "distribution",
     "Distribution of positions",
-    "Cumulative distribution of the positions of the marker that moves furthest. Where a curve leaves that of train, "
-    "models are asked about positions they have not seen.",
+    "Cumulative distribution of each coordinate of the marker that moves furthest, by subset. Validation and test "
+    "should lie on the curve of train; if they do not, the split is not random. Extrapolation departs from it: where "
+    "its curve rises beyond both ends of train, models predict positions that they were not fitted to.",
     frame,
     plot,
 )

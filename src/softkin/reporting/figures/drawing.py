@@ -1,4 +1,4 @@
-"""Draw every figure of a registry: PNG for people, SVG for papers, the frame behind it as CSV."""
+"""Draw every figure of a registry as PNG and SVG, with the numbers behind it as CSV."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ RUN_COLUMNS = ["model", "preset", "interval_method"]
 
 
 def shrink(picture: Path) -> None:
-    """A third of the size, to the eye the same: 256 colours, chosen for the picture."""
+    """Reduce a PNG to the 256 colours that suit it best: a third of the size, and no visible difference."""
     from PIL import Image
 
     with Image.open(picture) as image:
@@ -31,8 +31,7 @@ def shrink(picture: Path) -> None:
 def draw(figures: Mapping[str, FigureSpec[Results]], results: Results, folder: Path) -> None:
     """Write {name}.png, .svg and .csv of each figure into `folder`, and index.csv: which run each of them shows.
 
-    A figure whose methods or models were not run, or with too few trials, has no rows, and is left out with a line in
-    the log.
+    A figure whose frame is empty (its methods or models were not run, or too few trials) is left out, and logged.
     """
     import matplotlib as mpl
 
@@ -41,7 +40,7 @@ def draw(figures: Mapping[str, FigureSpec[Results]], results: Results, folder: P
     for name, spec in figures.items():
         frame = spec.frame(results)
         if frame.empty:
-            logger.info("no %s: nothing of it was run, or too little", name)
+            logger.info("no figure %s: what it shows was not run, or too little of it", name)
             continue
         frame.to_csv(folder / f"{name}.csv", index=False)
         with mpl.rc_context(SETTINGS):
@@ -51,10 +50,10 @@ def draw(figures: Mapping[str, FigureSpec[Results]], results: Results, folder: P
                     figure.savefig(temporary, format=ending, dpi=DPI, metadata=metadata)
                     if ending == "png":
                         shrink(temporary)
-                figure.set_layout_engine("none")  # it has found the places; finding them again takes as long
+                figure.set_layout_engine("none")  # its layout is computed; doing so again takes as long
         runs = frame[RUN_COLUMNS].drop_duplicates().to_dict("records")
         index += [{"figure": name, "title": spec.title, "caption": spec.caption, **run} for run in runs]
-        logger.info("drawn: %s", name)
+        logger.info("figure %s drawn", name)
     columns = ["figure", "title", "caption", *RUN_COLUMNS]
     with replacing(folder / "index.csv") as temporary:
         pd.DataFrame(index, columns=columns).to_csv(temporary, index=False)

@@ -1,4 +1,4 @@
-"""Intervals outside `train`: how often they cover, and what they cost beside the oracle's."""
+"""Coverage and Winkler score of interval methods on `test` and on `extrapolation`, beside the oracle's."""
 
 from __future__ import annotations
 
@@ -21,27 +21,30 @@ if TYPE_CHECKING:
 SHOWN = ["coverage", "winkler_ratio_to_oracle", "infinite_share", "guarantee", "labels_used", "refused"]
 #: Ratios up to here are drawn as they are, larger and infinite ones at the edge.
 MOST = 10.0
+#: By whether a method sees labels of the rows.
 MARKS = {True: "D", False: "o"}
+#: Where on the axis of coverage the refusal of a method is written.
+REFUSAL_AT = {EXTRAPOLATION: 0.02, TEST: 0.4}
 
 
 def frame(results: DatasetResults) -> pd.DataFrame:
-    """Columns model, preset, interval_method, title, subset, confidence_level and those in `SHOWN`: a row per run that
-    has intervals out there, method and subset, at the level nearest to 0.9.
+    """Columns model, preset, interval_method, title, subset, confidence_level and those in `SHOWN`: a row per run,
+    method and subset, at the level nearest to 0.9; runs without intervals in extrapolation are left out.
     """
-    scores = pd.read_csv(results.outside, keep_default_na=False, na_values=[""])
+    scores = pd.read_csv(results.extrapolation, keep_default_na=False, na_values=[""])
     if scores.empty:
         return scores
     levels = scores["confidence_level"].unique()
     scores = scores[scores["confidence_level"] == min(levels, key=lambda level: abs(level - PAPERS_LEVEL))]
     titles = {**results.method_titles, **{name: method.title for name, method in LABELLED_METHODS.items()}}
     scores = scores.assign(title=scores["interval_method"].map(titles), refused=scores["refused"].fillna(""))
-    ours = scores["interval_method"].isin(LABELLED_METHODS)
-    scores = pd.concat([scores[~ours], scores[ours]])
+    is_labelled = scores["interval_method"].isin(LABELLED_METHODS)
+    scores = pd.concat([scores[~is_labelled], scores[is_labelled]])
     return scores[["model", "preset", "interval_method", "title", "subset", "confidence_level", *SHOWN]]
 
 
 def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
-    """A row of panels for each run: coverage, and the Winkler score in units of the oracle's."""
+    """Draw a row of panels for each run: coverage, and the Winkler score in units of the oracle's."""
     runs = list(frame.groupby(["model", "preset"], sort=False))
     most = max(rows["interval_method"].nunique() for _, rows in runs)
     figure, axes = panels(len(runs), 2, PAGE, len(runs) * (0.2 * most + 0.7) + 0.6, sharex="col")
@@ -66,10 +69,10 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     samples = [
         sample(subset, color=SUBSET_COLOURS[subset], marker="o", linestyle="") for subset in (TEST, EXTRAPOLATION)
     ]
-    samples.append(sample("has seen labels of these rows", color=GREY, marker="D", markersize=4, linestyle=""))
-    samples.append(sample("nominal, oracle", color=BLACK, linewidth=0.8, linestyle="--"))
+    samples.append(sample("labelled: sees true positions", color=GREY, marker="D", markersize=4, linestyle=""))
+    samples.append(sample("nominal level, oracle", color=BLACK, linewidth=0.8, linestyle="--"))
     legend_below(figure, samples, 4)
-    heading(figure, results, f"{level:.0%} intervals inside and outside train")
+    heading(figure, results, f"{level:.0%} intervals in-domain and in extrapolation")
     return figure
 
 
@@ -78,30 +81,23 @@ def _draw(left: Axes, right: Axes, rows: pd.DataFrame, names: list[str], subset:
     for row in rows.itertuples():
         height = names.index(row.title)
         if row.refused:
-            left.text(level_of_text(subset), height, f"{subset}: refuses", color=colour, fontsize=7, va="center")
+            left.text(REFUSAL_AT[subset], height, f"{subset}: refuses", color=colour, fontsize=7, va="center")
             continue
-        look: dict[str, Any] = {
-            "color": colour,
-            "marker": MARKS[row.labels_used != NO_LABELS],
-            "markersize": 4,
-            "alpha": 0.9,
-        }
+        mark = MARKS[row.labels_used != NO_LABELS]
+        look: dict[str, Any] = {"color": colour, "marker": mark, "markersize": 4, "alpha": 0.9}
         left.plot(row.coverage, height, **look)
         ratio = row.winkler_ratio_to_oracle
         right.plot(min(ratio, MOST) if np.isfinite(ratio) else MOST, height, **look)
 
 
-def level_of_text(subset: str) -> float:
-    """Where on the axis of coverage a refusal is told: one beside the other."""
-    return 0.02 if subset == EXTRAPOLATION else 0.4
-
-
 FIGURE = FigureSpec(
-    "outside",
-    "Intervals outside train",
-    "How often intervals hold the truth, and their Winkler score in units of that of an oracle calibrated on these "
-    "very rows, for the paper's gradient boosting, the chosen model and the robust ones. Nothing is guaranteed on "
-    "extrapolation but where a method has seen labels of it.",
+    "extrapolation",
+    "Intervals in extrapolation",
+    "Coverage of each method's intervals (left), and their Winkler score divided by that of an oracle, which is "
+    "calibrated on the very rows it is scored on (right), for the paper's gradient boosting, the deployed model and "
+    "the robust ones. A good method stands at both dashed lines on test and on extrapolation: left of the first it "
+    "misses too often, right of the second its intervals cost more than they need to. On extrapolation only labelled "
+    "methods (diamonds), which see true positions there, have a guarantee.",
     frame,
     plot,
 )

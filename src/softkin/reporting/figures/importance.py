@@ -1,4 +1,4 @@
-"""Which parameters mattered in the studies, as a forest read them from the trials."""
+"""Importance of each model's parameters in its study, by a forest fitted to the trials."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from softkin.reporting.figures.style import LOOKS, PAGE, heading, panels
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-#: With fewer trials there is nothing to learn from.
+#: Studies with fewer trials are left out.
 LEAST_TRIALS = 10
 N_COLUMNS = 4
 #: Longer names (characters) go on two lines.
@@ -29,7 +29,7 @@ def frame(results: DatasetResults) -> pd.DataFrame:
     standard deviation, when a parameter is shuffled among the trials.
 
     scikit-learn's `permutation_importance` (Breiman 2001, section 10) of a forest of 32 trees that was fitted to the
-    logarithm of the error on the first part of `train`, which trials have that were cut short, too: the others would be
+    logarithm of the error on the first fold of `train`, which pruned trials have, too: complete trials alone would be
     the good ones only. Models with fewer than `LEAST_TRIALS` are left out.
     """
     parts = [_importances(pd.read_csv(path)).assign(model=model) for model, path in results.trials.items()]
@@ -45,7 +45,7 @@ def _importances(trials: pd.DataFrame) -> pd.DataFrame:
     names = [name for name in scored if name.startswith(PREFIX) and scored[name].nunique(dropna=False) > 1]
     if len(scored) < LEAST_TRIALS or not names:
         return pd.DataFrame()
-    # Names become numbers; a parameter that a trial does not have is a value of its own.
+    # Categories become numbers; for a forest the absence of a parameter (NaN) is a value of its own.
     numbers = pd.DataFrame(
         {
             name: scored[name] if pd.api.types.is_float_dtype(scored[name]) else pd.factorize(scored[name])[0]
@@ -54,14 +54,14 @@ def _importances(trials: pd.DataFrame) -> pd.DataFrame:
     )
     score = np.log(scored["first_part_mm"])
     forest = RandomForestRegressor(32, random_state=0).fit(numbers, score)
-    found = permutation_importance(forest, numbers, score, n_repeats=5, random_state=0)
-    columns = {"importance": found.importances_mean, "spread": found.importances_std, "n_trials": len(scored)}
+    drops = permutation_importance(forest, numbers, score, n_repeats=5, random_state=0)
+    columns = {"importance": drops.importances_mean, "spread": drops.importances_std, "n_trials": len(scored)}
     table = pd.DataFrame({"parameter": [name.removeprefix(PREFIX) for name in names], **columns})
     return table.sort_values("importance", kind="stable", ascending=False)
 
 
 def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
-    """A panel for each model, four side by side."""
+    """Draw a panel for each model, four side by side."""
     models = list(frame.groupby("model", sort=False))
     n_columns = min(len(models), N_COLUMNS)
     n_rows = -(-len(models) // n_columns)
@@ -79,15 +79,17 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
         axis.set_title(fill(results.model_titles[str(model)], 16))
         axis.grid(visible=False, axis="y")
     figure.supxlabel("permutation importance (drop of R2 of a forest that predicts the error of a trial)", fontsize=9)
-    heading(figure, results, "which parameters mattered in tuning", [TRAIN])
+    heading(figure, results, "importance of parameters in the studies", [TRAIN])
     return figure
 
 
 FIGURE = FigureSpec(
     "importance",
     "Parameter importance",
-    "Which parameters decide the error of a trial on the first fold: scikit-learn's permutation importance of a forest "
-    "fitted to the trials of a study. A few dozen trials tell the large from the small, no more.",
+    "Permutation importance of each parameter in a forest that predicts a trial's error on the first fold, from the "
+    "trials of a study. A long bar is a parameter worth searching; a bar near zero is one whose range could be fixed. "
+    "With a few dozen trials only large differences between bars mean anything; the black lines are one standard "
+    "deviation.",
     frame,
     plot,
 )

@@ -1,4 +1,4 @@
-"""The paper's Figure 6: intervals of four methods around one coordinate, rows of `test` sorted by true position."""
+"""Intervals of the paper's four methods on `test`, rows sorted by true position (the paper's Figure 6)."""
 
 from __future__ import annotations
 
@@ -12,8 +12,7 @@ from softkin.core.runs import Run
 from softkin.core.samples import TEST
 from softkin.data.table import read_subset
 from softkin.models.spec import PAPERS_RUN
-from softkin.reporting.figures.reading import bounds, candidates, shown_coordinate
-from softkin.reporting.figures.reading import chosen as chosen_run
+from softkin.reporting.figures.reading import bounds, candidates, deployed, shown_coordinate
 from softkin.reporting.figures.spec import DatasetResults, FigureSpec
 from softkin.reporting.figures.style import BLUE, GREY, PAGE, SKY, VERMILION, heading, legend_below, panels
 
@@ -25,37 +24,42 @@ if TYPE_CHECKING:
 METHODS = ("qr", "cqr", "scp_mapie", "scp_crepes")
 
 
-def frame(results: DatasetResults, *, chosen: bool) -> pd.DataFrame:
+def frame(results: DatasetResults, *, is_papers: bool) -> pd.DataFrame:
     """Columns model, preset, interval_method, title, coordinate, confidence_level, true, lower, upper (mm), covered.
 
     A row per row of `test` and method that was run, sorted by true position, of the coordinate that moves furthest on
-    `train`. `chosen`: around the chosen model instead of the paper's; QR and CQR, which have learners of their own,
-    around the paper's learner in the preset of the chosen model.
+    `train`. The intervals are around the paper's model or, unless `is_papers`, around the deployed one; QR and CQR
+    have quantile regressors of their own: the paper's, in the preset of that model.
     """
     coordinate, name = shown_coordinate(results)
     true = read_subset(results.table, TEST).positions[:, coordinate]
     order = np.argsort(true, kind="stable")
     level = float(candidates(results)["confidence_level"].iloc[0])
-    best = chosen_run(results)
-    if chosen and best is None:
+    best = deployed(results)
+    if best is None and not is_papers:
         return pd.DataFrame()
-    model, preset = best.run if chosen and best else PAPERS_RUN
+    model, preset = PAPERS_RUN if is_papers or best is None else best.run
     parts = []
     for method in (method for method in METHODS if method in results.intervals):
-        around = PAPERS_RUN.model if results.has_own_regressors[method] else model
-        found = bounds(results, method, Run(around, preset), level)
-        if found is None:
+        run = Run(PAPERS_RUN.model if results.has_own_regressors[method] else model, preset)
+        intervals = bounds(results, method, run, level)
+        if intervals is None:
             continue
-        lower, upper = found[:, coordinate].T
+        lower, upper = intervals[:, coordinate].T
         part = pd.DataFrame({"true": true, "lower": lower, "upper": upper}).iloc[order]
         part["covered"] = (part["lower"] <= part["true"]) & (part["true"] <= part["upper"])
-        key = {"model": around, "preset": preset, "interval_method": method, "title": results.method_titles[method]}
+        key = {
+            "model": run.model,
+            "preset": run.preset,
+            "interval_method": method,
+            "title": results.method_titles[method],
+        }
         parts.append(part.assign(**key, coordinate=name, confidence_level=level))
     return pd.concat(parts, ignore_index=True) if parts else pd.DataFrame()
 
 
 def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
-    """Above, positions and intervals as the paper shows them; below, the same from the true position's view."""
+    """Draw positions and intervals as the paper does (above), and relative to the true position (below)."""
     groups = list(frame.groupby("interval_method", sort=False))
     figure, axes = panels(2, len(groups), PAGE, 4.8, sharex=True, sharey="row")
     for column, (_, rows) in enumerate(groups):
@@ -72,7 +76,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
         axes[1][column].set_xlabel("row of test, sorted")
     coordinate, level = frame["coordinate"].iloc[0], frame["confidence_level"].iloc[0]
     axes[0][0].set_ylabel(f"{coordinate} (mm)")
-    axes[1][0].set_ylabel("distance from truth (mm)")
+    axes[1][0].set_ylabel("distance from the true\nposition (mm)")
     legend_below(figure, axes[0][0].get_legend_handles_labels()[0], 3)
     heading(figure, results, f"{level:.0%} intervals of {coordinate}")
     return figure
@@ -90,15 +94,18 @@ def _draw(axes: Axes, rows: pd.DataFrame, origin: object) -> None:
 PAPER_RECIPE = FigureSpec(
     "intervals_paper",
     "Intervals around the paper's model",
-    "Intervals of the paper's four methods around gradient boosting with the paper's settings, on test, sorted by true "
-    "position (the paper's Figure 6).",
-    partial(frame, chosen=False),
+    "Intervals of the paper's four methods around gradient boosting with the paper's settings, for the coordinate that "
+    "moves furthest on test, rows sorted by true position (the paper's Figure 6); below, the same relative to the true "
+    "position. The line of zero should lie in the blue band in as many rows as the level says: red dots are the rows "
+    "that are missed. Of two methods that cover as asked, the one with the narrower band is better.",
+    partial(frame, is_papers=True),
     plot,
 )
-CHOSEN_MODEL = FigureSpec(
-    "intervals_chosen",
-    "Intervals around the chosen model",
-    "The same methods around the chosen model; QR and CQR have learners of their own.",
-    partial(frame, chosen=True),
+DEPLOYED_MODEL = FigureSpec(
+    "intervals_deployed",
+    "Intervals around the deployed model",
+    "The same four methods around the deployed model; QR and CQR have quantile regressors of their own. Compare the "
+    "mean widths with those around the paper's model: a better model has a narrower band at the same coverage.",
+    partial(frame, is_papers=False),
     plot,
 )

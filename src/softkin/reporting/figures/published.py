@@ -1,4 +1,4 @@
-"""Every printed cell of the paper against ours: a heat map of ratios, across datasets."""
+"""Heat map of softkin's metrics divided by the paper's printed ones, cell by cell, across datasets."""
 
 from __future__ import annotations
 
@@ -18,15 +18,16 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 METRICS = {"rmse_mm": "RMSE", "mae_mm": "MAE", "r2": "1 - R2", "mape_percent": "MAPE"}
-#: In a cell that is reproduced to the last printed digit.
+#: Text of a cell that is reproduced to the last printed digit.
 SAME = "="
-#: Colours end at ours eight times as bad, or as good.
+#: Colours end at this ratio and at its inverse.
 LIMIT = 8.0
 
 
 def frame(results: CampaignResults) -> pd.DataFrame:
     """Columns model, preset, interval_method, dataset, subset, metric, printed, value, ratio, verdict, note: a row per
-    printed cell and preset. `ratio` is ours by theirs, of R2 that of what is missing to 1: below 1 ours is better.
+    printed cell and preset. `ratio` is softkin's metric divided by the printed one, for R2 that of 1 - R2: below 1 is
+    better.
     """
     cells = pd.read_csv(results.published_comparison, dtype={"note": str}).fillna({"note": ""})
     parts = []
@@ -35,14 +36,14 @@ def frame(results: CampaignResults) -> pd.DataFrame:
         part["value"], part["verdict"] = pd.to_numeric(cells[f"{preset}_value"]), cells[f"{preset}_verdict"]
         part["printed"] = pd.to_numeric(part["printed"])
         of_r2 = part["metric"] == "r2"
-        ours = part["value"].where(~of_r2, 1 - part["value"])
-        theirs = part["printed"].where(~of_r2, 1 - part["printed"])
-        parts.append(part.assign(preset=preset, interval_method="", ratio=ours / theirs.where(theirs > 0)))
+        measured = part["value"].where(~of_r2, 1 - part["value"])
+        printed = part["printed"].where(~of_r2, 1 - part["printed"])
+        parts.append(part.assign(preset=preset, interval_method="", ratio=measured / printed.where(printed > 0)))
     return pd.concat(parts, ignore_index=True) if parts else pd.DataFrame()
 
 
 def plot(frame: pd.DataFrame, results: CampaignResults) -> Figure:
-    """A row of panels for each dataset, a column for each preset."""
+    """Draw a row of panels for each dataset, a column for each preset."""
     from matplotlib.colors import LogNorm
 
     datasets, presets = list(frame["dataset"].unique()), list(frame["preset"].unique())
@@ -54,9 +55,9 @@ def plot(frame: pd.DataFrame, results: CampaignResults) -> Figure:
     norm = LogNorm(1 / LIMIT, LIMIT)
     for row, dataset in enumerate(datasets):
         for column, preset in enumerate(presets):
-            mine = frame[(frame["dataset"] == dataset) & (frame["preset"] == preset)]
-            image = _draw(axes[row][column], mine, models, norm)
-            name = results.dataset_titles[dataset].split(" (")[0] + ("*" if (mine["note"] != "").any() else "")
+            cells = frame[(frame["dataset"] == dataset) & (frame["preset"] == preset)]
+            image = _draw(axes[row][column], cells, models, norm)
+            name = results.dataset_titles[dataset].split(" (")[0] + ("*" if (cells["note"] != "").any() else "")
             axes[row][column].set_title(f"{name}, {preset} preset", pad=14)
         axes[row][0].set_yticks(range(len(models)), [results.model_titles[model] for model in models])
     figure.colorbar(
@@ -66,13 +67,15 @@ def plot(frame: pd.DataFrame, results: CampaignResults) -> Figure:
         shrink=0.6,
         aspect=40,
         pad=0.02,
-        label=f"ours / printed (below 1 ours is better; {SAME} reproduced)",
+        label=f"softkin / printed (below 1 softkin is better; {SAME} reproduced)",
         ticks=[1 / 8, 1 / 4, 1 / 2, 1, 2, 4, 8],
         format="%g",
         extend="both",
     ).minorticks_off()
     lines = [fill(f"* {dataset}, {subsets}: {note}", 100) for (dataset, note), subsets in notes.items()]
-    figure.suptitle("\n".join(["The paper's Tables 3 to 5 against ours, cell by cell", *lines]), fontsize=8.5)
+    figure.suptitle(
+        "\n".join(["softkin's metrics against the paper's Tables 3 to 5, cell by cell", *lines]), fontsize=8.5
+    )
     return figure
 
 
@@ -98,7 +101,7 @@ def _draw(axes: Axes, cells: pd.DataFrame, models: list[str], norm: Any) -> Any:
 
 
 def _short(ratio: float) -> str:
-    """Three characters at most: '1.0', '.31', '48', '0'."""
+    """The ratio in at most three characters: '1.0', '.31', '48', '0'."""
     if ratio < 0.01:
         return "0"
     if ratio >= 999:
@@ -108,10 +111,11 @@ def _short(ratio: float) -> str:
 
 FIGURE = FigureSpec(
     "published",
-    "Published against ours",
-    "Ratio of our metric to the printed one for every cell of the paper's Tables 3 to 5, with the paper's settings and "
-    "searched. Below 1 ours is better (0: below a hundredth); = is reproduced to the last printed digit. "
-    "Where R2 is printed as nearly 1, the ratio of 1 - R2 is mostly that of its rounding.",
+    "The paper's tables, reproduced",
+    "softkin's metric divided by the printed one for every cell of the paper's Tables 3 to 5, with the paper's "
+    "settings and with searched ones. With the paper's settings look for =, reproduced to the last printed digit. With "
+    "searched settings a number below 1 is an error smaller than the printed one (0: below a hundredth of it). Where "
+    "R2 is printed as nearly 1, the ratio of 1 - R2 is mostly that of its rounding.",
     frame,
     plot,
 )

@@ -1,4 +1,4 @@
-"""What several figures read of a dataset's results."""
+"""Readers of a dataset's results that several figures share."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from softkin.reporting.figures.spec import DatasetResults
 
 
 @dataclass(frozen=True, slots=True)
-class Chosen:
-    """The chosen model and preset, and the best method around it at the level at which methods were compared."""
+class Deployed:
+    """The deployed run, and the best interval method around it at the level at which methods were compared."""
 
     model: str
     preset: str
@@ -26,22 +26,22 @@ class Chosen:
 
     @property
     def run(self) -> Run:
-        """The run that this interval is around."""
+        """The run whose predictions the intervals surround."""
         return Run(self.model, self.preset)
 
 
-def chosen(results: DatasetResults) -> Chosen | None:
-    """None when only methods with quantile regressors of their own were run."""
+def deployed(results: DatasetResults) -> Deployed | None:
+    """The deployed run and interval method; None when only methods with quantile regressors of their own were run."""
     choice = candidates(results)
     around = choice[~choice["has_own_regressors"]]
     if around.empty:
         return None
     best = around.iloc[0]
-    return Chosen(best["model"], best["preset"], best["interval_method"], float(best["confidence_level"]))
+    return Deployed(best["model"], best["preset"], best["interval_method"], float(best["confidence_level"]))
 
 
 def candidates(results: DatasetResults) -> pd.DataFrame:
-    """interval_choice.csv, best first, and `has_own_regressors`."""
+    """Rows of interval_choice.csv, best first, with a column `has_own_regressors`."""
     choice = pd.read_csv(results.choice)
     return choice.assign(
         has_own_regressors=choice["interval_method"].map(dict(results.has_own_regressors)).astype(bool)
@@ -56,20 +56,20 @@ def shown_coordinate(results: DatasetResults) -> tuple[int, str]:
 
 
 def predicted(results: DatasetResults, run: Run, subset: str, columns: list[str]) -> Array:
-    """What the run predicts of these coordinates on a subset, (n_rows, n_columns); mm."""
+    """Predictions (n_rows, n_columns) of these coordinates by a run on a subset; mm."""
     frame = pd.read_parquet(results.predictions[run], columns=columns, filters=[("subset", "==", subset)])
     return np.ascontiguousarray(frame.to_numpy(np.float64))
 
 
 def bounds(results: DatasetResults, method: str, run: Run, confidence_level: float, subset: str = TEST) -> Array | None:
     """Intervals on a subset, (n_rows, n_coordinates, 2) in mm; None when the method has none around this run."""
-    mine = [("model", "==", run[0]), ("preset", "==", run[1]), ("subset", "==", subset)]
-    stored = pd.read_parquet(results.intervals[method], filters=mine)
+    of_run = [("model", "==", run.model), ("preset", "==", run.preset), ("subset", "==", subset)]
+    stored = pd.read_parquet(results.intervals[method], filters=of_run)
     return None if stored.empty else np.asarray(read_bounds(stored, subset, [confidence_level])[0])
 
 
 def mean_marker_errors(results: DatasetResults, run: Run, subset: str) -> Array:
-    """Distance between true and predicted marker, (n_rows,), averaged over the markers that move; mm."""
+    """Distance between true and predicted marker, (n_rows,), averaged over the moving markers; mm."""
     moving = informative_coordinates(read_subset(results.table, TRAIN).positions)
     true = read_subset(results.table, subset).positions
     columns = coordinate_columns(true.shape[1] // 3)

@@ -1,4 +1,4 @@
-"""Where on the robot the chosen model errs: residuals by coordinate and marker."""
+"""Residuals of the deployed model by marker and coordinate."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import pandas as pd
 
 from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, coordinate_columns, informative_coordinates
 from softkin.data.table import read_subset
-from softkin.reporting.figures.reading import chosen, predicted
+from softkin.reporting.figures.reading import deployed, predicted
 from softkin.reporting.figures.spec import DatasetResults, FigureSpec
 from softkin.reporting.figures.style import (
     BLACK,
@@ -36,7 +36,7 @@ def frame(results: DatasetResults) -> pd.DataFrame:
     """Columns model, preset, interval_method, subset, marker, axis, whislo .. whishi, mean (mm): quantiles of predicted
     minus true, a row per moving coordinate of `test` and `extrapolation`.
     """
-    best = chosen(results)
+    best = deployed(results)
     if best is None:
         return pd.DataFrame()
     moving = informative_coordinates(read_subset(results.table, TRAIN).positions)
@@ -53,7 +53,7 @@ def frame(results: DatasetResults) -> pd.DataFrame:
 
 
 def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
-    """Test and extrapolation, each to its own scale; a group of boxes for each marker."""
+    """Draw test above extrapolation, each at its own scale; a group of boxes for each marker."""
     figure, axes = panels(2, 1, PAGE, 4.6, sharex=True)
     for [axis], (subset, rows) in zip(axes, frame.groupby("subset", sort=False), strict=True):
         _draw(axis, rows)
@@ -62,18 +62,18 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     samples = [sample(f"{axis} axis", color=colour, linewidth=6, alpha=0.7) for axis, colour in AXIS_COLOURS.items()]
     legend_below(figure, samples, 3)
     first = frame.iloc[0]
-    heading(figure, results, f"residuals of {first['model']} {first['preset']}")
+    heading(figure, results, f"residuals of {results.model_titles[first['model']]}, {first['preset']}")
     return figure
 
 
 def _draw(axes: Axes, rows: pd.DataFrame) -> None:
     markers = list(rows["marker"].unique())
     for place, (name, colour) in enumerate(AXIS_COLOURS.items()):
-        mine = rows[rows["axis"] == name]
-        statistics = [{**dict(row), "fliers": []} for row in mine[list(QUANTILES)].to_dict("records")]
+        of_axis = rows[rows["axis"] == name]
+        statistics = [{**dict(row), "fliers": []} for row in of_axis[list(QUANTILES)].to_dict("records")]
         axes.bxp(
             statistics,
-            positions=[markers.index(marker) + 0.26 * (place - 1) for marker in mine["marker"]],
+            positions=[markers.index(marker) + 0.26 * (place - 1) for marker in of_axis["marker"]],
             widths=0.2,
             patch_artist=True,
             showfliers=False,
@@ -90,8 +90,10 @@ def _draw(axes: Axes, rows: pd.DataFrame) -> None:
 FIGURE = FigureSpec(
     "residuals",
     "Residuals by marker",
-    "Predicted minus true position of the chosen model by coordinate: median, middle half (box), and from the 5 % to "
-    "the 95 % quantile (whiskers). Coordinates that never move are left out.",
+    "Predicted minus true position of the deployed model by coordinate: median, middle half of the rows (box), and 5 % "
+    "to 95 % quantile (whiskers). The boxes of a good model are short and centred on zero. A box off zero is a bias, "
+    "which on extrapolation is to be expected; boxes that grow towards the tip are errors that add up along the robot. "
+    "Constant coordinates are left out.",
     frame,
     plot,
 )

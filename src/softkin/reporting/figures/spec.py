@@ -1,4 +1,4 @@
-"""What a figure is, and where the results lie that it is drawn from."""
+"""The specification of a figure, and the files of results that figures are drawn from."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class DatasetResults:
-    """Where the results of one dataset lie, for the figures: only of what was run.
+    """Paths of one dataset's results, of what was run, and the titles of models and methods.
 
-    `predictions` is run -> file in the order of the pool, `trials` tuned model -> file, `intervals`
-    method -> file; `notes` what a reader of a subset must know. `model_titles` are by model, `method_titles` and
-    `has_own_regressors` (quantile regressors, in place of a point model) by method.
+    `predictions` maps a run to its file in the order of the pool, `trials` a tuned model, `intervals` a method; `notes`
+    maps a subset to what its reader must know, a leak for instance. `model_titles` are by model, `method_titles` and
+    `has_own_regressors` (quantile regressors in place of a point model) by method.
     """
 
     dataset: str
@@ -33,8 +33,8 @@ class DatasetResults:
     interval_metrics: Path
     choice: Path
     conditional: Path
-    outside: Path
-    spaces: Path
+    extrapolation: Path
+    target_spaces: Path
     notes: Mapping[str, str]
     model_titles: Mapping[str, str]
     method_titles: Mapping[str, str]
@@ -43,7 +43,7 @@ class DatasetResults:
 
 @dataclass(frozen=True, slots=True)
 class CampaignResults:
-    """Where the results across datasets lie, for the figures. `dataset_titles` and `model_titles` are by name."""
+    """Paths of the results across datasets; `dataset_titles` and `model_titles` are by name."""
 
     published_comparison: Path
     dataset_titles: Mapping[str, str]
@@ -55,11 +55,10 @@ Results = TypeVar("Results")
 
 @dataclass(frozen=True, slots=True)
 class FigureSpec(Generic[Results]):
-    """One figure: `frame(results)` is all that it shows, `plot(frame, results)` draws it, `caption` tells how to read
-    it.
+    """One figure: `frame(results)` returns all numbers that it shows, `plot(frame, results)` draws them.
 
-    A frame names the runs it shows in columns model, preset, interval_method (empty where there is none); an empty
-    one is not drawn.
+    `caption` says what is drawn, where to look, and what a good and a bad one look like. A frame names the runs it
+    shows in the columns model, preset, interval_method (empty where there is none); an empty frame is not drawn.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""One look for all figures: readable at the width of a page, colours that the colour-blind can tell apart."""
+"""One style for all figures: text readable at the width of a page, colours that the colour-blind tell apart."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ BLUE, ORANGE, GREEN, VERMILION, SKY, PURPLE, YELLOW, BLACK = PALETTE = (
 GREY, LIGHT = "#666666", "#bbbbbb"
 SUBSET_COLOURS = {TRAIN: GREY, VALIDATION: GREEN, TEST: BLUE, EXTRAPOLATION: VERMILION}
 
-#: Tol's muted scheme and a brown of his (personal.sron.nl/~pault), black being the truth; with a mark of
-#: its own each model is told apart in grey, too. Ten colours and eleven marks: no two of 110 models look alike.
+#: Tol's muted scheme and one of his browns (personal.sron.nl/~pault); black is kept for true positions. Each model has
+#: a mark of its own, too, for prints in grey. Ten colours and eleven marks give 110 different looks.
 MODEL_COLOURS = (
     *("#CC6677", "#332288", "#DDCC77", "#117733", "#88CCEE", "#882255", "#44AA99", "#999933", "#AA4499", "#661100"),
 )
@@ -38,7 +38,7 @@ LOOKS = {
     for place, name in enumerate(dict.fromkeys([*MODELS, *QUANTILE_MODELS]))
 }
 
-#: Nothing smaller is told apart on a logarithmic axis, mm: some models repeat their training rows exactly.
+#: Smaller errors (mm) are drawn here on a logarithmic axis: some models repeat their training rows exactly.
 LEAST_MM = 1e-9
 #: Inches: the text of a figure this wide keeps its size on a page.
 PAGE = 7.2
@@ -63,7 +63,7 @@ SETTINGS: dict[Any, Any] = {
 
 
 def blank(width: float, height: float) -> Figure:
-    """An empty figure of `width` x `height` inches; no window system is asked for."""
+    """An empty figure of `width` x `height` inches; it needs no window system."""
     import matplotlib as mpl
     from matplotlib.figure import Figure
 
@@ -82,27 +82,28 @@ def panels(n_rows: int, n_columns: int, width: float, height: float, **options: 
 
 
 def heading(figure: Figure, results: DatasetResults, text: str, shows: Collection[str] = (TEST, EXTRAPOLATION)) -> None:
-    """Title above all panels, and below it what a reader of the subsets it `shows` must know: a leak, for instance."""
-    width = int(10.5 * figure.get_figwidth())
+    """Write a title above all panels, and below it the notes of the subsets that it `shows`, such as a leak."""
+    width = int(12 * figure.get_figwidth())
     notes = [f"{subset}: {note}" for subset, note in results.notes.items() if subset in shows]
     lines = [fill(line, width) for line in (f"{results.title}: {text}", *notes)]
     figure.suptitle("\n".join(lines), fontsize=9 if notes else 10)
 
 
 def logarithmic(axis: Axis, most_numbers: int = 8) -> None:
-    """Plain numbers on a logarithmic axis on which everything is drawn: few decades get more of them."""
+    """Put plain numbers on a logarithmic axis after everything is drawn: more per decade where decades are few."""
     from matplotlib.ticker import FormatStrFormatter, LogFormatterSciNotation, LogLocator, NullFormatter
 
     low, high = axis.get_view_interval()
     decades = np.log10(high / low)
-    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if decades < 2 else (1.0,), numticks=most_numbers))
+    subs = (1.0, 1.5, 2.0, 3.0, 5.0, 7.0) if decades < 1 else (1.0, 2.0, 5.0) if decades < 2 else (1.0,)
+    axis.set_major_locator(LogLocator(subs=subs, numticks=most_numbers))
     plain = decades < 5 and low > 1e-4
     axis.set_major_formatter(FormatStrFormatter("%g") if plain else LogFormatterSciNotation())
     axis.set_minor_formatter(NullFormatter())
 
 
 def legend_below(figure: Figure, handles: Iterable[Any], n_columns: int) -> None:
-    """One legend for all panels, below them."""
+    """Draw one legend for all panels, below them."""
     figure.legend(handles=list(handles), loc="outside lower center", ncols=n_columns, frameon=False)
 
 

@@ -1,4 +1,4 @@
-"""What a target space is worth: every model fitted to positions and to arcs, its error outside the training range."""
+"""Error on `extrapolation` of every model fitted to positions and to curvature coordinates."""
 
 from __future__ import annotations
 
@@ -33,14 +33,13 @@ POSITIONS = "cartesian"
 
 def frame(results: DatasetResults) -> pd.DataFrame:
     """Columns model, preset, interval_method, target_space, is_chosen, rmse_mm, mae_mm: a row per model and space."""
-    spaces = pd.read_csv(results.spaces)
-    mine = spaces[spaces["subset"] == EXTRAPOLATION].reset_index(drop=True)
-    shown = mine[["model", "target_space", "is_chosen", *ERRORS]]
-    return shown.assign(preset=OUTER, interval_method="")
+    scores = pd.read_csv(results.target_spaces)
+    scores = scores[scores["subset"] == EXTRAPOLATION].reset_index(drop=True)
+    return scores[["model", "target_space", "is_chosen", *ERRORS]].assign(preset=OUTER, interval_method="")
 
 
 def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
-    """A line per model from one space to the other; RMSE left, MAE right."""
+    """Draw a line per model from one target space to the other; RMSE left, MAE right."""
     models = list(frame["model"].unique())[::-1]
     figure, [axes] = panels(1, len(ERRORS), PAGE, 0.26 * len(models) + 1.5, sharey=True)
     for panel, (error, label) in zip(axes, ERRORS.items(), strict=True):
@@ -53,10 +52,10 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     samples = [
         sample("fitted to positions", color=GREY, marker="o", markerfacecolor="white", linestyle=""),
         sample("fitted to curvature coordinates", color=GREY, marker="o", linestyle=""),
-        sample("chosen on train", color=BLACK, marker="o", markerfacecolor="none", markersize=10, linestyle=""),
+        sample("chosen in the study", color=BLACK, marker="o", markerfacecolor="none", markersize=10, linestyle=""),
     ]
     legend_below(figure, samples, 3)
-    heading(figure, results, "what curvature coordinates are worth", [EXTRAPOLATION])
+    heading(figure, results, "error in extrapolation by target space", [EXTRAPOLATION])
     return figure
 
 
@@ -73,10 +72,11 @@ def _draw(panel: Axes, rows: pd.DataFrame, error: str, height: int) -> None:
 
 FIGURE = FigureSpec(
     "target_spaces",
-    "What curvature coordinates are worth",
-    "Errors outside the training range of every model fitted to positions and to curvature coordinates, each with the "
-    "best parameters of its search by outer shells. A ring marks the space that the search chose, on train alone. "
-    "Errors below 1e-9 mm are drawn there.",
+    "Target spaces",
+    "Errors on extrapolation of every model fitted to positions (open marks) and to curvature coordinates (full "
+    "marks), each with the best parameters of its study of preset outer. Where the full mark is left of the open one, "
+    "curvature coordinates help this model to extrapolate. A ring marks the space that the study chose, on train "
+    "alone: a good choice is the left one of the two. Errors below 1e-9 mm are drawn at 1e-9 mm.",
     frame,
     plot,
 )

@@ -1,4 +1,4 @@
-"""How the studies went: the best score so far, over the trials of each model."""
+"""History of the studies: each trial's score, and the best score so far of each model."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def frame(results: DatasetResults) -> pd.DataFrame:
 
 
 def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
-    """One panel, all models; a mark for each complete trial."""
+    """Draw all models in one panel, with a mark for each complete trial."""
     figure, [[axes]] = panels(1, 1, PAGE, 3.8)
     last = frame["trial"].max()
     for model, trials in frame.groupby("model", sort=False):
@@ -40,15 +40,16 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     axes.set_ylabel("cross-validated mean absolute error\non train (mm)")
     samples = model_samples(frame["model"].unique(), results)
     figure.legend(handles=samples, loc="outside right center", frameon=False)
-    heading(figure, results, "tuning, the best trial so far", [TRAIN])
+    heading(figure, results, "trials of the studies, and the best so far", [TRAIN])
     return figure
 
 
 FIGURE = FigureSpec(
     "tuning_history",
     "Tuning history",
-    "Score of each complete trial (marks) and the best so far (lines), by cross-validation within train. Pruned trials "
-    "have no mark.",
+    "Cross-validated error within train of each complete trial (marks), and the best so far (lines). A line that is "
+    "flat over its last third has had enough trials; one that still falls at the end would gain from more. Marks far "
+    "above their line are parameters to avoid. Pruned trials have no mark.",
     frame,
     plot,
 )

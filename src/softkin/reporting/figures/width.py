@@ -1,4 +1,4 @@
-"""Does an interval grow where the prediction is bad? Width against error, per method."""
+"""Interval width against error of each row of `test`, per method: whether wide intervals mark bad predictions."""
 
 from __future__ import annotations
 
@@ -45,9 +45,9 @@ def frame(results: DatasetResults) -> pd.DataFrame:
     true = read_subset(results.table, TEST).positions[:, coordinate]
     parts: list[pd.DataFrame] = []
     for row in candidates(results).itertuples():
-        found = bounds(results, row.interval_method, Run(row.model, row.preset), row.confidence_level)
-        assert found is not None  # a candidate has intervals
-        lower, upper = found[:, coordinate].T
+        intervals = bounds(results, row.interval_method, Run(row.model, row.preset), row.confidence_level)
+        assert intervals is not None  # a candidate has intervals
+        lower, upper = intervals[:, coordinate].T
         part = pd.DataFrame({"half_width_mm": (upper - lower) / 2, "error_mm": np.abs(true - (lower + upper) / 2)})
         part["covered"] = (lower <= true) & (true <= upper)
         part = part[np.isfinite(part["half_width_mm"])]
@@ -66,7 +66,7 @@ def _is_constant(part: pd.DataFrame) -> bool:
 
 
 def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
-    """A panel for each method, log-log."""
+    """Draw a log-log panel for each method."""
     frame = frame.assign(**frame[["half_width_mm", "error_mm"]].clip(lower=LEAST_MM))
     groups = list(frame.groupby("title", sort=False))
     figure, axes = panels(1, len(groups), PAGE, 3.2, sharex=True, sharey=True)
@@ -76,23 +76,23 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
         axis.set_xlabel("half width (mm)")
     logarithmic(axes[0][0].xaxis, 4)
     logarithmic(axes[0][0].yaxis)
-    axes[0][0].set_ylabel("distance of the truth from\nthe interval's middle (mm)")
+    axes[0][0].set_ylabel("distance of the true position\nfrom the interval's middle (mm)")
+    level = frame["confidence_level"].iloc[0]
     samples = [
         sample("covered", color=BLUE, marker=".", linestyle=""),
         sample("missed", color=VERMILION, marker=".", linestyle=""),
         sample("edge of the interval", color=GREY, linewidth=0.8, linestyle="--"),
-        sample("90% quantile of rows of like width", color=BLACK, marker="o", markersize=4, linewidth=1.2),
+        sample(f"{level:.0%} quantile of rows of like width", color=BLACK, marker="o", markersize=4, linewidth=1.2),
     ]
     legend_below(figure, samples, 4)
-    first = frame.iloc[0]
-    heading(figure, results, f"{first['confidence_level']:.0%} intervals of {first['coordinate']}, width and error")
+    heading(figure, results, f"{level:.0%} intervals of {frame['coordinate'].iloc[0]}, width and error")
     return figure
 
 
 def _draw(axes: Axes, rows: pd.DataFrame) -> None:
     level = rows["confidence_level"].iloc[0]
-    for inside, colour in ((True, BLUE), (False, VERMILION)):
-        part = rows[rows["covered"] == inside]
+    for is_covered, colour in ((True, BLUE), (False, VERMILION)):
+        part = rows[rows["covered"] == is_covered]
         axes.loglog(part["half_width_mm"], part["error_mm"], ".", color=colour, markersize=2.5, rasterized=True)
     low, high = rows["half_width_mm"].agg(["min", "max"])
     axes.plot([low, high], [low, high], color=GREY, linewidth=0.8, linestyle="--")
@@ -100,16 +100,19 @@ def _draw(axes: Axes, rows: pd.DataFrame) -> None:
         return
     ordered = rows.sort_values("half_width_mm", kind="stable")
     parts = [ordered.iloc[part] for part in np.array_split(np.arange(len(ordered)), N_PARTS) if len(part)]
-    high = [part["error_mm"].quantile(level) for part in parts]
-    axes.plot([part["half_width_mm"].median() for part in parts], high, "o-", color=BLACK, markersize=3, linewidth=1.2)
+    quantiles = [part["error_mm"].quantile(level) for part in parts]
+    axes.plot(
+        [part["half_width_mm"].median() for part in parts], quantiles, "o-", color=BLACK, markersize=3, linewidth=1.2
+    )
 
 
 FIGURE = FigureSpec(
     "width",
     "Interval width against error",
     "Each dot is a row of test: half the width of its interval against the distance of the true position from the "
-    "interval's middle. Dots above the dashed line are missed. Where the black line rises, the method knows where the "
-    "prediction is bad.",
+    "interval's middle. Dots above the dashed line are missed. The black line of a good method follows the dashed one: "
+    "its intervals are wide where errors are large. A flat black line is a method whose width says nothing about the "
+    "error; a vertical column of dots is one whose width is the same everywhere.",
     frame,
     plot,
 )

@@ -1,4 +1,4 @@
-"""Where in command space the chosen model is bad."""
+"""Map of command space: mean marker error of the deployed model at each command."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pandas as pd
 
 from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, command_columns
 from softkin.data.table import read_subset
-from softkin.reporting.figures.reading import chosen, mean_marker_errors
+from softkin.reporting.figures.reading import deployed, mean_marker_errors
 from softkin.reporting.figures.spec import DatasetResults, FigureSpec
 from softkin.reporting.figures.style import BLACK, LEAST_MM, PAGE, heading, legend_below, logarithmic, panels, sample
 
@@ -19,16 +19,16 @@ if TYPE_CHECKING:
     from matplotlib.collections import PathCollection
     from matplotlib.figure import Figure
 
-#: Of more commands, those whose rank correlation with the error is strongest.
+#: Of robots with more commands, those are drawn whose rank correlation with the error is strongest.
 MOST_COMMANDS = 4
 ERROR = "error_mm"
 
 
 def frame(results: DatasetResults) -> pd.DataFrame:
-    """Columns model, preset, interval_method, subset, u1 .., error_mm: a row per row of `train` (no error is shown),
-    `test` and `extrapolation`; the error of the chosen model is averaged over the markers that move.
+    """Columns model, preset, interval_method, subset, u1 .., error_mm: a row per row of `train` (without error),
+    `test` and `extrapolation`; the error of the deployed model is averaged over the moving markers.
     """
-    best = chosen(results)
+    best = deployed(results)
     if best is None:
         return pd.DataFrame()
     parts = []
@@ -42,7 +42,7 @@ def frame(results: DatasetResults) -> pd.DataFrame:
 
 
 def shown_commands(frame: pd.DataFrame) -> list[str]:
-    """The commands that are drawn, in their order."""
+    """Columns of the commands that are drawn, in their order."""
     commands = [name for name in frame if name.startswith("u")]
     correlation = frame[[*commands, ERROR]].corr("spearman")[ERROR].abs()[commands]
     kept = set(correlation.sort_values(ascending=False, kind="stable").index[:MOST_COMMANDS])
@@ -50,7 +50,7 @@ def shown_commands(frame: pd.DataFrame) -> list[str]:
 
 
 def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
-    """A panel for each pair of commands; of a single command, the error itself is the other axis."""
+    """Draw a panel for each pair of commands; for a single command, the error is the other axis."""
     commands = shown_commands(frame)
     pairs = list(combinations(commands, 2)) or [(commands[0], ERROR)]
     n_columns = min(3, len(pairs))
@@ -61,7 +61,9 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     for axis in places[len(pairs) :]:
         axis.set_axis_off()
     drawn = [_draw(axis, frame, *pair) for axis, pair in zip(places, pairs, strict=False)]
-    bar = figure.colorbar(drawn[0], ax=places, label="mean marker error (mm)", shrink=0.9, extend="both")
+    first = frame.iloc[0]
+    label = f"mean marker error of\n{results.model_titles[first['model']]}, {first['preset']} (mm)"
+    bar = figure.colorbar(drawn[0], ax=places, label=label, shrink=0.9, extend="both")
     logarithmic(bar.ax.yaxis)
     dark = {"linestyle": "", "color": "#444444", "markersize": 4}
     samples = [
@@ -70,8 +72,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
         sample("extrapolation", marker="^", **dark),
     ]
     legend_below(figure, samples, 3)
-    first = frame.iloc[0]
-    heading(figure, results, f"error of {first['model']} {first['preset']} by command")
+    heading(figure, results, "mean marker error at each command")
     return figure
 
 
@@ -101,8 +102,10 @@ def _draw(axes: Axes, frame: pd.DataFrame, across: str, up: str) -> PathCollecti
 FIGURE = FigureSpec(
     "workspace",
     "Workspace map",
-    "Error of the chosen model at each command of test and extrapolation: dark where it is bad. Dashed lines are the "
-    "ends of what train holds of a command.",
+    "Mean marker error of the deployed model at each command of test (circles) and extrapolation (triangles); dark is "
+    "a large error, drawn on top. A good model is light within the dashed lines, the range of train, and darkens "
+    "slowly beyond them. A dark spot among light ones is a region that needs more data, a single dark mark a gross "
+    "error.",
     frame,
     plot,
 )

@@ -1,4 +1,4 @@
-"""The workspace: where the robot is, where a model believes it to be, and how sure that is."""
+"""Workspace predictions: true and predicted positions of a marker, with intervals of some rows."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from softkin.core.runs import PAPERS_LEVEL, Run
 from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, Array, coordinate_columns
 from softkin.data.table import read_subset
 from softkin.models.spec import PAPERS_RUN
-from softkin.reporting.figures.reading import bounds, chosen, predicted, shown_coordinate
+from softkin.reporting.figures.reading import bounds, deployed, predicted, shown_coordinate
 from softkin.reporting.figures.spec import DatasetResults, FigureSpec
 from softkin.reporting.figures.style import BLACK, LIGHT, PAGE, SUBSET_COLOURS, heading, legend_below, panels, sample
 
@@ -21,11 +21,11 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: The interval that is made for both sides of the training shell.
+#: The interval method that is made for in-domain commands and for extrapolation.
 METHOD = "auto"
-#: Poses of extrapolation, and of test, whose interval is drawn.
+#: Rows of extrapolation, and of test, whose intervals are drawn.
 N_BOXES = 24
-#: Inches: around the panels, across one, and no higher than.
+#: Inches: height around the panels, width of a panel, and greatest height.
 AROUND, ACROSS, HIGHEST = 1.4, 3.1, 4.4
 SHOWN, SIDES = (TEST, EXTRAPOLATION), ("lower", "upper")
 
@@ -35,7 +35,7 @@ def frame(results: DatasetResults) -> pd.DataFrame:
     upper_2 (mm; intervals NaN where there are none), axis_1, axis_2: a row per row of train (without predictions),
     test and extrapolation and run, of the marker that moves furthest, in the two coordinates of most spread.
     """
-    best = chosen(results)
+    best = deployed(results)
     runs = [run for run in dict.fromkeys([PAPERS_RUN, *([best.run] if best else [])]) if run in results.predictions]
     train = read_subset(results.table, TRAIN).positions
     first = 3 * (shown_coordinate(results)[0] // 3)
@@ -47,11 +47,11 @@ def frame(results: DatasetResults) -> pd.DataFrame:
             true = read_subset(results.table, subset).positions[:, two]
             columns: dict[str, Any] = {"true_1": true[:, 0], "true_2": true[:, 1], "is_boxed": False}
             if subset != TRAIN:
-                mine = predicted(results, run, subset, names)
-                columns |= {"predicted_1": mine[:, 0], "predicted_2": mine[:, 1]}
+                guess = predicted(results, run, subset, names)
+                columns |= {"predicted_1": guess[:, 0], "predicted_2": guess[:, 1]}
                 columns |= _intervals(results, run, subset, two)
                 columns["is_boxed"] = _evenly_spread(true)
-            key = {"model": run[0], "preset": run[1], "subset": subset, "axis_1": names[0], "axis_2": names[1]}
+            key = {"model": run.model, "preset": run.preset, "subset": subset, "axis_1": names[0], "axis_2": names[1]}
             parts.append(pd.DataFrame(columns).assign(**key))
     if not parts:
         return pd.DataFrame()
@@ -73,22 +73,22 @@ def _widest_plane(points: Array) -> NDArray[np.intp]:
 
 
 def _evenly_spread(points: Array) -> NDArray[np.bool_]:
-    """Some points (n_rows, 2), each the farthest from those before it, the first the farthest from the middle."""
+    """Mask (n_rows,) of points (n_rows, 2), each the farthest from those before it, the first from their mean."""
     distance = np.linalg.norm(points - points.mean(axis=0), axis=1)
     kept = np.zeros(len(points), dtype=bool)
     for _ in range(min(N_BOXES, len(points))):
         place = int(np.argmax(np.where(kept, -1.0, distance)))
-        away = np.linalg.norm(points - points[place], axis=1)
-        distance = away if not kept.any() else np.minimum(distance, away)
+        to_place = np.linalg.norm(points - points[place], axis=1)
+        distance = np.minimum(distance, to_place) if kept.any() else to_place
         kept[place] = True
     return kept
 
 
 def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
-    """A panel per run: the paper's, and the chosen one."""
+    """Draw a panel per run: the paper's, and the deployed one."""
     runs = list(frame.groupby(["model", "preset"], sort=False))
-    reach = np.ptp(frame[["true_1", "true_2"]].to_numpy(), axis=0)
-    height = min(AROUND + ACROSS * reach[1] / reach[0], HIGHEST)
+    extent = np.ptp(frame[["true_1", "true_2"]].to_numpy(), axis=0)
+    height = min(AROUND + ACROSS * extent[1] / extent[0], HIGHEST)
     figure, axes = panels(1, len(runs), PAGE, height, sharex=True, sharey=True)
     for panel, ((model, preset), rows) in zip(axes[0], runs, strict=True):
         _draw(panel, rows)
@@ -102,10 +102,10 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
         *(sample(f"predicted, {s}", color=SUBSET_COLOURS[s], marker="o", markersize=3, linestyle="") for s in SHOWN),
     ]
     if "lower_1" in frame:
-        label = f"{PAPERS_LEVEL:.0%} interval of some"
+        label = f"{PAPERS_LEVEL:.0%} intervals of some rows"
         samples.append(sample(label, color=BLACK, marker="s", fillstyle="none", linestyle=""))
     legend_below(figure, samples, 3)
-    heading(figure, results, "where it is, and where believed")
+    heading(figure, results, f"true and predicted positions of marker {frame['axis_1'].iloc[0].split('_')[0]}")
     return figure
 
 
@@ -113,27 +113,29 @@ def _draw(panel: Axes, rows: pd.DataFrame) -> None:
     from matplotlib.patches import Rectangle
     from scipy.spatial import ConvexHull
 
-    inside = rows.loc[rows["subset"] == TRAIN, ["true_1", "true_2"]].to_numpy()
-    edge = inside[ConvexHull(inside, qhull_options="QJ").vertices]
+    train = rows.loc[rows["subset"] == TRAIN, ["true_1", "true_2"]].to_numpy()
+    edge = train[ConvexHull(train, qhull_options="QJ").vertices]
     panel.plot(*np.vstack([edge, edge[:1]]).T, color=BLACK, linewidth=0.8, linestyle="--", zorder=4)
     for subset in SHOWN:
-        mine, colour = rows[rows["subset"] == subset], SUBSET_COLOURS[subset]
-        true, believed = (mine[[f"{name}_1", f"{name}_2"]].to_numpy() for name in ("true", "predicted"))
-        panel.plot(*np.stack([true, believed], axis=1).transpose(2, 1, 0), color=colour, linewidth=0.4, alpha=0.5)
+        of_subset, colour = rows[rows["subset"] == subset], SUBSET_COLOURS[subset]
+        true, guess = (of_subset[[f"{name}_1", f"{name}_2"]].to_numpy() for name in ("true", "predicted"))
+        panel.plot(*np.stack([true, guess], axis=1).transpose(2, 1, 0), color=colour, linewidth=0.4, alpha=0.5)
         panel.plot(*true.T, "o", color=LIGHT, markersize=3)
-        panel.plot(*believed.T, "o", color=colour, markersize=1.6)
-        for row in mine[mine["is_boxed"]].itertuples() if "lower_1" in mine else ():
+        panel.plot(*guess.T, "o", color=colour, markersize=1.6)
+        for row in of_subset[of_subset["is_boxed"]].itertuples() if "lower_1" in of_subset else ():
             size = (row.upper_1 - row.lower_1, row.upper_2 - row.lower_2)
             if np.isfinite(size).all():
                 panel.add_patch(Rectangle((row.lower_1, row.lower_2), *size, fill=False, color=colour, linewidth=0.6))
 
 
 FIGURE = FigureSpec(
-    "believed",
-    "The workspace, true and predicted",
-    "Where the marker that moves furthest truly is, and where two models believe it to be: the paper's gradient "
-    "boosting and the chosen one. Lines join the two. Outside the dashed edge no model has seen a pose; the rectangles "
-    "are intervals made for both sides of it.",
+    "workspace_predictions",
+    "Workspace predictions",
+    "True positions of the marker that moves furthest (grey), and those that the paper's gradient boosting and the "
+    "deployed model predict (coloured); thin lines join the two. No position of train lies beyond the dashed edge. "
+    "Look there: the dots of a model that extrapolates lie on the grey ones, those of one that does not pile up at the "
+    "edge. The rectangles are intervals of some rows, wider in extrapolation: a good one is as small as its model "
+    "allows and still holds the grey dot.",
     frame,
     plot,
 )

@@ -1,1 +1,1 @@
-"""One self-contained page, results/report.html, that tells a complete run to whoever has not seen the project."""
+"""The report of a run: one self-contained page, results/report.html, for readers who do not know the project."""

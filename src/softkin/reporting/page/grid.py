@@ -1,16 +1,15 @@
-"""A table of the report: columns that sort, some that filter, cells that carry marks."""
+"""A table of the page: columns that sort, some that filter, cells that carry marks, and a link to its CSV."""
 
 from __future__ import annotations
 
-import math
+import csv
+import io
 from collections.abc import Sequence
 from dataclasses import dataclass
+from urllib.parse import quote
 
 from softkin.reporting.page.marks import Mark, merged
-from softkin.reporting.tables.paper_layout import format_number
-
-#: What stands where there is no number.
-NOTHING = "–"
+from softkin.reporting.tables.numbers import number_text, share_text
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +36,9 @@ class Cell:
 
 @dataclass(frozen=True, slots=True)
 class Grid:
-    """`sentence` stands above the table and says what it is; `file` names the CSV that has everything in it."""
+    """`sentence` stands above the table and says what it is, `remarks` below it; `file` is the path of its CSV beside
+    the page, empty for a table that is only on the page.
+    """
 
     name: str
     title: str
@@ -45,6 +46,7 @@ class Grid:
     columns: Sequence[Column]
     rows: Sequence[Sequence[Cell]]
     file: str = ""
+    remarks: Sequence[str] = ()
 
     @property
     def menus(self) -> list[tuple[int, Column, list[str]]]:
@@ -61,19 +63,21 @@ class Grid:
         """The marks in this table that need words, each once."""
         return [mark for mark in merged([cell.marks for row in self.rows for cell in row]) if mark.text]
 
+    @property
+    def link(self) -> str:
+        """Address of the CSV: the file beside the page, or a data URI of what the table shows."""
+        if self.file:
+            return self.file
+        stream = io.StringIO()
+        writer = csv.writer(stream)
+        writer.writerow(column.title for column in self.columns)
+        writer.writerows([cell.text for cell in row] for row in self.rows)
+        return "data:text/csv;charset=utf-8," + quote(stream.getvalue())
 
-def number(value: float | None, unit: str = "") -> Cell:
-    """Three significant digits; a dash for what was not measured."""
-    return Cell(number_text(value, unit))
 
-
-def number_text(value: float | None, unit: str = "") -> str:
-    """As `number`, without the cell."""
-    if value is None or math.isnan(value):
-        return NOTHING
-    if math.isinf(value):
-        return "infinite"
-    return format_number(float(value)) + (f" {unit}" if unit else "")
+def number(value: float | None) -> Cell:
+    """A number in the format of every table."""
+    return Cell(number_text(value))
 
 
 def share(value: float | None) -> Cell:
@@ -81,6 +85,11 @@ def share(value: float | None) -> Cell:
     return Cell(share_text(value))
 
 
-def share_text(value: float | None, digits: int = 1) -> str:
-    """As `share`, without the cell."""
-    return NOTHING if value is None or math.isnan(value) else f"{100 * value:.{digits}f} %"
+def number_columns(*titles: str) -> list[Column]:
+    """Columns of numbers."""
+    return [Column(title, is_number=True) for title in titles]
+
+
+def filtered_columns(*titles: str) -> list[Column]:
+    """Columns with a menu."""
+    return [Column(title, filtered=True) for title in titles]

@@ -1,18 +1,22 @@
-"""Figures as parts of the page: every picture of a dataset's folder as a data URI."""
+"""Encode figures as parts of the page: every picture of a dataset's folder as a data URI."""
 
 from __future__ import annotations
 
 import base64
 import io
-from collections.abc import Mapping
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import pandas as pd
 from PIL import Image
 
+from softkin.reporting.page.marks import Mark
+
 #: All pictures together may take this many bytes, as base64; the page must stay under 10 MB.
 BUDGET = 7_000_000
+#: The caption of a picture that no index names.
+UNNAMED = "A picture that the index of the figures does not name."
 #: WebP qualities that are tried, after a lossless one, on a picture that is larger than its part of the budget.
 QUALITIES = (90, 75, 60, 40)
 
@@ -31,25 +35,47 @@ class Picture:
     is_reduced: bool
 
 
-def pictures(folders: Mapping[str, Path], titles: Mapping[str, str], beside: Path) -> dict[str, list[Picture]]:
-    """By dataset, its pictures: those of index.csv in its order, then any other PNG of the folder by name.
+@dataclass(frozen=True, slots=True)
+class Folder:
+    """A folder of figures: `title` names the robot, `marks` are its own."""
 
-    `titles` is dataset -> title, for the alternative text; `beside` the folder of the report. A picture that no index
-    names is titled after its file.
+    title: str
+    path: str | Path
+    marks: tuple[Mark, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Album:
+    """The pictures of a folder, under its title."""
+
+    title: str
+    marks: tuple[Mark, ...]
+    pictures: Sequence[Picture]
+
+
+def albums(folders: Sequence[Folder], beside: Path) -> list[Album]:
+    """The pictures of each folder: those of index.csv in its order, then any other PNG of the folder by name.
+
+    `beside` is the folder of the report. A picture that no index names is titled after its file, and its caption says
+    so.
     """
-    named = {dataset: _named(folder) for dataset, folder in folders.items()}
-    budget = BUDGET // max(1, sum(map(len, named.values())))
-    return {
-        dataset: [_picture(path, *words, titles[dataset], budget, beside) for path, words in files.items()]
-        for dataset, files in named.items()
-    }
+    named = [_named(Path(folder.path)) for folder in folders]
+    budget = BUDGET // max(1, sum(map(len, named)))
+    return [
+        Album(
+            folder.title,
+            folder.marks,
+            [_picture(path, *words, folder.title, budget, beside) for path, words in files.items()],
+        )
+        for folder, files in zip(folders, named, strict=True)
+    ]
 
 
 def _named(folder: Path) -> dict[Path, tuple[str, str]]:
     """PNG -> title and caption."""
     index = pd.read_csv(folder / "index.csv", dtype=str).fillna("").drop_duplicates("figure")
     known = {folder / f"{row.figure}.png": (str(row.title), str(row.caption)) for row in index.itertuples()}
-    others = {path: (path.stem.replace("_", " ").capitalize(), "") for path in sorted(folder.glob("*.png"))}
+    others = {path: (path.stem.replace("_", " ").capitalize(), UNNAMED) for path in sorted(folder.glob("*.png"))}
     return known | {path: words for path, words in others.items() if path not in known}
 
 

@@ -13,7 +13,8 @@ import pandas as pd
 
 from softkin.core.durations import readable
 from softkin.core.files import read_json
-from softkin.reporting.page.grid import NOTHING, Cell, Column, Grid, number
+from softkin.reporting.page.grid import Cell, Column, Grid, filtered_columns, number, number_columns
+from softkin.reporting.tables.numbers import NOTHING
 
 N_SLOWEST = 15
 
@@ -21,7 +22,7 @@ N_SLOWEST = 15
 @dataclass(frozen=True, slots=True)
 class Job:
     """One measured job: its rule, dataset, model and preset (empty: all of them), Snakemake's benchmark file, and the
-    records that the job wrote of itself, if it did: `n_trials` and `n_pruned` of a study, `fit_seconds` of a fit.
+    JSON files that the job wrote, if any: `n_trials` and `n_pruned` of a study, `fit_seconds` of a fit.
     """
 
     rule: str
@@ -57,7 +58,7 @@ def _sum(records: Sequence[Mapping[str, Any]], name: str) -> float:
 
 
 def slowest_grid(times: pd.DataFrame, models: Mapping[str, str]) -> Grid:
-    """The slowest jobs first."""
+    """The table of the slowest jobs, slowest first."""
     rows = []
     for row in times.nlargest(N_SLOWEST, "seconds").itertuples():
         trials = [NOTHING if math.isnan(n) else f"{n:.0f}" for n in (row.n_trials, row.n_pruned)]
@@ -69,12 +70,13 @@ def slowest_grid(times: pd.DataFrame, models: Mapping[str, str]) -> Grid:
             ]
         )
     sentence = (
-        f"The {len(rows)} jobs that took longest, of {len(times)} that were measured: a study (tune) fits its model "
-        "once a trial and fold, and CPU time far below wall time means that a job waited for its turn."
+        f"The {len(rows)} jobs that took longest, of {len(times)} that were measured. A study (tune) fits its model "
+        "once a trial and fold. CPU time far below wall time means that a job waited for its turn."
     )
-    columns = [Column("Job", filtered=True), Column("Robot", filtered=True), Column("Model"), Column("Preset")]
-    columns += [Column(title, is_number=True) for title in ("Wall time (s)", "CPU time (s)", "Peak memory (MB)")]
-    columns += [Column(title, is_number=True) for title in ("Trials", "Cut short", "Of it fitting (s)")]
+    columns = [*filtered_columns("Job", "Robot"), Column("Model"), Column("Preset")]
+    columns += number_columns(
+        "Wall time (s)", "CPU time (s)", "Peak memory (MB)", "Trials", "Pruned", "Of it fitting (s)"
+    )
     return Grid("slowest", "The slowest jobs", sentence, columns, rows)
 
 

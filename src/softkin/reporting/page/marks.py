@@ -1,4 +1,4 @@
-"""What a reader must know of a number before believing it: leaks, rows left out, stand-ins."""
+"""Mark the numbers that need a warning: leaks, rows left out, stand-ins."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from softkin.core.samples import SUBSETS, VALIDATION
+from softkin.data.audit.findings import LEAK
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,7 +18,6 @@ class Mark:
     text: str = ""
 
 
-CHOSEN = Mark("chosen")
 CUT = "rows were left out (max_rows_per_subset): not comparable with the paper, nor with a complete run"
 STANDIN = "a stand-in, simulated by softkin in place of the published data: its numbers say nothing of the real robot"
 
@@ -25,8 +25,9 @@ STANDIN = "a stand-in, simulated by softkin in place of the published data: its 
 class Marks:
     """The marks of every dataset and subset.
 
-    `notes` of an entry in config/datasets.yaml become a `caution` on that subset; a finding of severity `leak` in a
-    data card a `leak`; `is_cut` and `standin` of dataset.json mark every subset.
+    A finding of severity `leak` in a data card marks its subsets as a `leak`; `notes` of an entry in
+    config/datasets.yaml stand with it, or are a `caution` on their subset; `is_cut` and the origin of dataset.json mark
+    every subset.
     """
 
     def __init__(
@@ -36,19 +37,16 @@ class Marks:
         cards: Mapping[str, Mapping[str, Any]],
     ) -> None:
         self._marks: dict[tuple[str, str], list[Mark]] = {}
-        for dataset, about in descriptions.items():
+        for dataset, description in descriptions.items():
             notes = sources[dataset].get("notes", {})
-            findings = [f for f in cards.get(dataset, {}).get("findings", []) if f["severity"] == "leak"]
+            findings = [finding for finding in cards[dataset]["findings"] if finding["severity"] == LEAK]
             for subset in SUBSETS:
-                leaks = [f["sentence"] + " " + f["consequence"] for f in findings if subset in f["subsets"]]
-                texts = {
-                    "leak": " ".join([*leaks, *([notes[subset]] if leaks and subset in notes else [])]),
-                    "caution": notes.get(subset, "") if not leaks else "",
-                }
-                place = f"{dataset}, {subset}: "
-                marks = [Mark(kind, place + text.strip()) for kind, text in texts.items() if text]
-                marks += [Mark("rows left out", f"{dataset}: {CUT}.")] * bool(about["is_cut"])
-                marks += [Mark("stand-in", f"{dataset}: {STANDIN}.")] * (about.get("origin") == "stand-in")
+                leaks = [f"{f['sentence']} {f['consequence']}" for f in findings if subset in f["subsets"]]
+                text = " ".join([*leaks, notes.get(subset, "")]).strip()
+                kind = "leak" if leaks else "caution"
+                marks = [Mark(kind, f"{dataset}, {subset}: {text}")] * bool(text)
+                marks += [Mark("rows left out", f"{dataset}: {CUT}.")] * bool(description["is_cut"])
+                marks += [Mark("stand-in", f"{dataset}: {STANDIN}.")] * (description.get("origin") == "stand-in")
                 self._marks[dataset, subset] = marks
 
     def of(self, dataset: str, subset: str) -> tuple[Mark, ...]:

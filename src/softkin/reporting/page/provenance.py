@@ -1,4 +1,4 @@
-"""What was run: the commit, the versions, the data; how to cite and to repeat it."""
+"""What was run: commit, versions, configuration, data, and what to cite."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import platform
 import re
 import subprocess
 from collections.abc import Mapping
+from datetime import UTC, datetime
 from importlib.metadata import requires, version
 from pathlib import Path
 from typing import Any
@@ -13,27 +14,42 @@ from typing import Any
 import yaml
 
 from softkin import __version__
-from softkin.reporting.page.grid import Cell, Column, Grid
+from softkin.reporting.page.grid import Cell, Column, Grid, number_columns
 from softkin.reporting.page.marks import Marks
 
 #: Not part of what was run, and private: where this machine finds the data and keeps its runs.
 LEFT_OUT = ("data_mirror", "tracking_uri", "sources")
 
 
-def commit(house: Path) -> tuple[str, bool] | None:
-    """(hash, whether files that git knows were changed since) of the checkout whose top folder is `house`; None if it
-    is none, or git is not there.
+def what_was_run(config: Mapping[str, Any], citation: Path, sources: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
+    """The parts of the page that identify a run, by their names in the template; `citation` is CITATION.cff at the top
+    of the checkout.
     """
-    top = _git(house, "rev-parse", "--show-toplevel")
-    if top is None or Path(top).resolve() != house.resolve():
+    return {
+        "campaign": config["campaign"],
+        "seed": config["seed"],
+        "written": datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
+        "commit": commit(citation.parent),
+        "versions": versions(),
+        "settings": settings(config),
+        "citations": citations(citation, sources),
+    }
+
+
+def commit(checkout: Path) -> tuple[str, bool] | None:
+    """(hash, whether files that git knows were changed since) of the checkout whose top folder this is; None if it is
+    none, or git is not there.
+    """
+    top = _git(checkout, "rev-parse", "--show-toplevel")
+    if top is None or Path(top).resolve() != checkout.resolve():
         return None
-    head = _git(house, "rev-parse", "HEAD")
-    return None if head is None else (head, bool(_git(house, "status", "--porcelain", "--untracked-files=no")))
+    head = _git(checkout, "rev-parse", "HEAD")
+    return None if head is None else (head, bool(_git(checkout, "status", "--porcelain", "--untracked-files=no")))
 
 
-def _git(house: Path, *arguments: str) -> str | None:
+def _git(folder: Path, *arguments: str) -> str | None:
     try:
-        done = subprocess.run(["git", "-C", str(house), *arguments], capture_output=True, text=True, check=True)
+        done = subprocess.run(["git", "-C", str(folder), *arguments], capture_output=True, text=True, check=True)
     except (FileNotFoundError, subprocess.CalledProcessError):
         return None
     return done.stdout.strip()
@@ -56,12 +72,13 @@ def citations(cff: Path, sources: Mapping[str, Mapping[str, Any]]) -> list[str]:
     """What to cite: softkin and what it implements, from CITATION.cff, then the data, as an entry asks; once each."""
     content = yaml.safe_load(cff.read_text(encoding="utf-8"))
     works = [content, *(entry for entry in content.get("references", []) if entry["type"] != "data")]
-    asked = [entry["citation"].strip() for entry in sources.values() if "citation" in entry]
-    return list(dict.fromkeys([*map(_citation, works), *asked]))
+    of_data = [entry["citation"].strip() for entry in sources.values() if "citation" in entry]
+    return list(dict.fromkeys([*map(_citation, works), *of_data]))
 
 
 def _citation(work: Mapping[str, Any]) -> str:
-    people = [who.get("name") or f"{who['family-names']}, {who['given-names']}" for who in work["authors"]]
+    authors = work["authors"]
+    people = [person.get("name") or f"{person['family-names']}, {person['given-names']}" for person in authors]
     details = [str(work[key]) for key in ("version", "year", "doi", "url") if key in work]
     return ". ".join(["; ".join(people), work["title"], *details]) + "."
 
@@ -71,21 +88,21 @@ def data_grid(
 ) -> Grid:
     """One row per dataset: its sizes and the hash of its file."""
     rows = []
-    for dataset, about in descriptions.items():
-        sizes = [Cell(str(size)) for size in about["rows"].values()]
-        still = ", ".join(about["constant_coordinates"]) or "none"
+    for dataset, description in descriptions.items():
+        sizes = [Cell(str(size)) for size in description["rows"].values()]
+        constant = ", ".join(description["constant_coordinates"]) or "none"
         rows.append(
             [
-                *(Cell(dataset, marks.of_dataset(dataset)), Cell(about["title"])),
-                *(Cell(str(about["n_commands"])), Cell(str(about["n_markers"])), *sizes, Cell(still)),
-                *(Cell(sources[dataset]["file"]), Cell(about["sha256"], verdict="hash")),
+                *(Cell(dataset, marks.of_dataset(dataset)), Cell(description["title"])),
+                *(Cell(str(description["n_commands"])), Cell(str(description["n_markers"])), *sizes, Cell(constant)),
+                *(Cell(sources[dataset]["file"]), Cell(description["sha256"], verdict="hash")),
             ]
         )
     sentence = (
-        "What the models learned from: commands drive a robot, markers are the points on it whose positions are "
-        "predicted, in mm, and the hash names the file's content beyond doubt."
+        "What the models were fitted to: commands drive a robot, markers are the points on it whose positions are "
+        "predicted, in mm. The hash identifies the content of the file."
     )
-    numbers = ("Commands", "Markers", "Train rows", "Validation", "Test", "Extrapolation")
-    columns = [Column("Robot"), Column("Title", is_wide=True), *(Column(title, is_number=True) for title in numbers)]
-    columns += [Column("Never move"), Column("File"), Column("SHA-256 of the file")]
+    columns = [Column("Robot"), Column("Title", is_wide=True), *number_columns("Commands", "Markers")]
+    columns += number_columns("Train rows", "Validation", "Test", "Extrapolation")
+    columns += [Column("Constant coordinates", is_wide=True), Column("File"), Column("SHA-256 of the file")]
     return Grid("data", "The data", sentence, columns, rows)

@@ -1,4 +1,4 @@
-"""The interval method each robot gets, chosen on `validation`, and what it turned out to be worth."""
+"""Tabulate the interval methods a dataset could have: which is chosen, which is deployed, and their scores on test."""
 
 from __future__ import annotations
 
@@ -8,18 +8,11 @@ import pandas as pd
 
 from softkin.core.samples import EXTRAPOLATION, TEST
 from softkin.models.spec import PAPERS_RUN
+from softkin.reporting.titles import Titles
 
 #: What the paper puts around its model.
 PAPERS_METHOD = "scp_mapie"
-SHOWN = ("coverage", "mean_width_mm", "winkler_mm")
-
-
-def given_intervals(choice: pd.DataFrame) -> pd.DataFrame:
-    """The row of each dataset's calibrated model, which is not the chosen one where that has a learner of its own; the
-    chosen one where no candidate is deployed. Indexed by dataset.
-    """
-    shown = choice[choice["deployed"] | choice["chosen"]].sort_values("deployed", ascending=False, kind="stable")
-    return shown.drop_duplicates("dataset").set_index("dataset", drop=False).loc[choice["dataset"].unique()]
+SCORES = ("coverage", "mean_width_mm", "winkler_mm")
 
 
 def interval_choice(candidates: Mapping[str, pd.DataFrame], metrics: pd.DataFrame) -> pd.DataFrame:
@@ -29,17 +22,57 @@ def interval_choice(candidates: Mapping[str, pd.DataFrame], metrics: pd.DataFram
     """
     mean = metrics[metrics["coordinate"] == "mean_informative"]
     key = ["dataset", "model", "preset", "interval_method", "confidence_level"]
-    test, beyond = (
-        mean[mean["subset"] == subset].set_index(key)[list(SHOWN)].add_prefix(f"{subset}_")
+    test, extrapolation = (
+        mean[mean["subset"] == subset].set_index(key)[list(SCORES)].add_prefix(f"{subset}_")
         for subset in (TEST, EXTRAPOLATION)
     )
     frames = []
     for dataset, frame in candidates.items():
-        mine = frame.assign(dataset=dataset).join(test, on=key)
-        mine = mine.join(beyond, on=["outside" if name == "interval_method" else name for name in key])
-        level = float(mine["confidence_level"].iloc[0])
+        scored = frame.assign(dataset=dataset).join(test, on=key)
+        scored = scored.join(extrapolation, on=["outside" if name == "interval_method" else name for name in key])
+        level = float(scored["confidence_level"].iloc[0])
         papers = (dataset, *PAPERS_RUN, PAPERS_METHOD, level)
         reference = float(test.loc[papers, "test_winkler_mm"]) if papers in test.index else float("nan")
-        mine["winkler_ratio_to_paper"] = mine["test_winkler_mm"] / reference
-        frames.append(mine[["dataset", *(name for name in mine if name != "dataset")]])
+        scored["winkler_ratio_to_paper"] = scored["test_winkler_mm"] / reference
+        frames.append(scored[["dataset", *(name for name in scored if name != "dataset")]])
     return pd.concat(frames, ignore_index=True)
+
+
+def chosen_intervals(choice: pd.DataFrame) -> pd.DataFrame:
+    """The row of each dataset's chosen interval method, indexed by dataset."""
+    return choice[choice["chosen"]].set_index("dataset", drop=False)
+
+
+def deployed_intervals(choice: pd.DataFrame) -> pd.DataFrame:
+    """The row of each dataset's deployed interval method, or of the chosen one where none is deployed; indexed by
+    dataset.
+    """
+    candidates = choice[choice["deployed"] | choice["chosen"]].sort_values("deployed", ascending=False, kind="stable")
+    return candidates.drop_duplicates("dataset").set_index("dataset", drop=False).loc[choice["dataset"].unique()]
+
+
+def why_another_is_deployed(choice: pd.DataFrame, titles: Titles) -> dict[str, str]:
+    """A sentence by dataset, for those whose deployed interval method is not the chosen one: which they are, and why.
+
+    A chosen method that is not deployed is one on quantile regressors: it surrounds no point model.
+    """
+    chosen_ones = chosen_intervals(choice)
+    sentences = {}
+    for dataset, deployed in deployed_intervals(choice).iterrows():
+        chosen = chosen_ones.loc[dataset]
+        if chosen["deployed"]:
+            continue
+        chosen_text, deployed_text = (
+            f"{titles.methods[row['interval_method']]} ({titles.run(row['model'], row['preset'])})"
+            for row in (chosen, deployed)
+        )
+        outcome = (
+            f"deployed is {deployed_text}, the best around the deployed model"
+            if deployed["deployed"]
+            else "none is deployed"
+        )
+        sentences[str(dataset)] = (
+            f"Chosen is {chosen_text}, of the lowest cross-validated Winkler score; it has quantile regressors of its "
+            f"own and surrounds no point model, so {outcome}."
+        )
+    return sentences

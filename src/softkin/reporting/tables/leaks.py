@@ -1,4 +1,4 @@
-"""The mark of a leak in the tables: a column `leak`, so that nobody who reads a CSV alone takes it for a test."""
+"""Mark rows of a table that leak, in a column `leak`: whoever reads a CSV alone must not take it for a test."""
 
 from __future__ import annotations
 
@@ -12,10 +12,11 @@ MARK = "leak"
 
 
 def marked(frame: pd.DataFrame, leaking: Mapping[str, Collection[str]], *, calibrated: bool = False) -> pd.DataFrame:
-    """The table with a column `leak`, true where the row's subset stands in train (`leaking`: dataset -> subsets).
+    """The table with a column `leak`, true where the commands of the row's subset stand in train (`leaking`: dataset ->
+    subsets).
 
-    A table without a column `subset` is one of test rows. A `calibrated` number leaks as well where `validation` does:
-    the interval was calibrated on rows that the model was fitted to.
+    A table without a column `subset` is one of test rows. A number of `calibrated` intervals leaks where `validation`
+    does, too: they were calibrated on rows that the model was fitted to.
     """
     subsets = frame["subset"] if "subset" in frame else pd.Series(TEST, index=frame.index)
     marks = [

@@ -1,17 +1,19 @@
-"""Tables 2 to 5 in the paper's layout, as Markdown and as LaTeX (booktabs)."""
+"""Lay out Tables 2 to 5 as the paper does, as Markdown and as LaTeX (booktabs)."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-import numpy as np
 import pandas as pd
 
 from softkin.core.metrics.point import LARGER_IS_BETTER
+from softkin.core.samples import EXTRAPOLATION, TEST
+from softkin.reporting.tables.numbers import NOTHING, number_text
 
 HEADINGS = {"rmse_mm": "RMSE (mm)", "mae_mm": "MAE (mm)", "r2": "R2", "mape_percent": "MAPE (%)"}
-SUBSET_TITLES = {"test": "Testing", "extrapolation": "Extrapolation"}
+#: As the paper heads its tables.
+SUBSET_TITLES = {TEST: "Testing", EXTRAPOLATION: "Extrapolation"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +69,7 @@ def subset_table(descriptions: Sequence[Mapping[str, object]], published: pd.Dat
         sizes: Mapping[str, int] = description["rows"]  # type: ignore[assignment]
         features = [str(description["n_commands"]), str(3 * int(str(description["n_markers"])))]
         for subset, size in sizes.items():
-            rows.append([subset, str(size), str(printed.get((description["dataset"], subset), "-")), *features])
+            rows.append([subset, str(size), str(printed.get((description["dataset"], subset), NOTHING)), *features])
         groups.append((str(description["title"]), len(sizes)))
     header = ["Subset", "Size", "Size in the paper", "Input features", "Output features"]
     return PaperTable("Table 2: data description", header, rows, set(), groups)
@@ -77,54 +79,60 @@ def comparison_table(
     number: int | None,
     dataset: str,
     title: str,
+    *,
     point: pd.DataFrame,
     cells: pd.DataFrame,
-    names: Mapping[str, str],
+    model_titles: Mapping[str, str],
     notes: Sequence[str],
 ) -> PaperTable:
-    """Tables 3 to 5: a row per model, testing above extrapolation; printed, paper preset, tuned for each metric.
+    """Tables 3 to 5: a row per model, test above extrapolation; for each metric the printed cell, then every preset.
 
-    The best cell of each column is bold. `number` is None for a dataset that the paper has no table of.
+    The best cell of each column is bold.
+
+    Parameters:
+        number: of the paper's table; None for a dataset that the paper has no table of.
+        dataset: its name.
+        title: its title.
+        point: the point metrics of all datasets, as in point_metrics.csv.
+        cells: the printed cells beside ours, as in published_comparison.csv.
+        model_titles: model -> title.
+        notes: sentences below the table.
     """
-    presets = list(dict.fromkeys(point["preset"]))
-    sources = [*(["printed"] if number else []), *presets]
+    sources = [*(["printed"] if number else []), *presets_of(point)]
     header = ["Method", *(f"{heading} {source}" for heading in HEADINGS.values() for source in sources)]
     rows: list[list[str]] = []
     bold: set[tuple[int, int]] = set()
     groups = []
     for subset, subset_title in SUBSET_TITLES.items():
         start = len(rows)
-        here = point[(point["dataset"] == dataset) & (point["subset"] == subset)]
-        models = list(dict.fromkeys(here["model"]))
-        rows += [[names[model]] for model in models]
+        scores = point[(point["dataset"] == dataset) & (point["subset"] == subset)]
+        printed = cells[(cells["dataset"] == dataset) & (cells["subset"] == subset)]
+        models = list(dict.fromkeys(scores["model"]))
+        rows += [[model_titles[model]] for model in models]
         for metric in HEADINGS:
             for source in sources:
                 if source == "printed":
-                    where = (cells["dataset"] == dataset) & (cells["subset"] == subset) & (cells["metric"] == metric)
-                    texts = cells[where].set_index("model")["printed"].to_dict()
+                    texts = printed[printed["metric"] == metric].set_index("model")["printed"].to_dict()
                     values = {model: float(text) for model, text in texts.items()}
                 else:
-                    values = here[here["preset"] == source].set_index("model")[metric].to_dict()
-                    texts = {model: format_number(value) for model, value in values.items()}
+                    values = scores[scores["preset"] == source].set_index("model")[metric].to_dict()
+                    texts = {model: number_text(value) for model, value in values.items()}
                 best = (max if LARGER_IS_BETTER[metric] else min)(values.values(), default=None)
                 for offset, model in enumerate(models):
-                    if model in values and texts[model] == format_like(best, texts, values):
+                    if model in values and texts[model] == text_of_best(best, texts, values):
                         bold.add((start + offset, len(rows[start + offset])))
-                    rows[start + offset].append(texts.get(model, "-"))
+                    rows[start + offset].append(texts.get(model, NOTHING))
         groups.append((subset_title, len(models)))
     heading = f"Table {number}: comparison on {title}" if number else f"Comparison on {title} (not in the paper)"
     return PaperTable(heading, header, rows, bold, groups, notes)
 
 
-def format_number(value: float) -> str:
-    """Three significant digits, without an exponent where the number is of ordinary size."""
-    if value == 0 or not np.isfinite(value):
-        return str(value)
-    digits = max(0, 2 - int(np.floor(np.log10(abs(value)))))
-    return f"{value:.{digits}f}" if digits <= 5 else f"{value:.2e}"
+def presets_of(point: pd.DataFrame) -> list[str]:
+    """The presets that were run, in the order of the configuration."""
+    return list(dict.fromkeys(point["preset"]))
 
 
-def format_like(best: float | None, texts: Mapping[str, str], values: Mapping[str, float]) -> str | None:
+def text_of_best(best: float | None, texts: Mapping[str, str], values: Mapping[str, float]) -> str | None:
     """The text of the best value: cells that read the same are equally best."""
     return next((texts[model] for model, value in values.items() if value == best), None)
 
@@ -140,4 +148,6 @@ def _tex_line(cells: Iterable[str]) -> str:
 def _tex(text: str) -> str:
     for character in "&%_#":
         text = text.replace(character, "\\" + character)
+    for character in "<>":
+        text = text.replace(character, f"${character}$")
     return text.replace("R2", "$R^2$")

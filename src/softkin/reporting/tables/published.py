@@ -1,4 +1,4 @@
-"""Every printed cell of the paper's Tables 3 to 5 against ours, and the best of each column."""
+"""Compare every printed cell of the paper's Tables 3 to 5 with ours, and the best of each column."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def verdict(printed: str, ours: float, metric: str) -> str:
 
 
 def compare(published: pd.DataFrame, point: pd.DataFrame, notes: dict[tuple[str, str], str]) -> pd.DataFrame:
-    """One row per printed cell whose dataset and model were run, with value and verdict of each preset that was run.
+    """One row per printed cell whose dataset and model were run, with value and verdict of each preset.
 
     `notes` says (dataset, subset) -> what a reader must know about that table.
     """

@@ -1,7 +1,8 @@
-"""The 24 printed cells of the paper's Table 6 against ours: our honest average, and what comes nearest to them."""
+"""Compare the 24 printed cells of the paper's Table 6 with ours: an average over coordinates, and the nearest cell."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -10,8 +11,10 @@ import pandas as pd
 from softkin.core.runs import PAPERS_LEVEL
 from softkin.core.samples import TEST
 from softkin.models.spec import PAPERS_RUN
-from softkin.reporting.tables.paper_layout import PaperTable, format_number
+from softkin.reporting.tables.numbers import NOTHING, number_text
+from softkin.reporting.tables.paper_layout import PaperTable
 from softkin.reporting.tables.published import unit
+from softkin.reporting.titles import Titles
 
 KEY = ["dataset", "interval_method"]
 METRICS = {"coverage": "Coverage", "winkler_mm": "Winkler score (mm)"}
@@ -39,24 +42,23 @@ def read_published_intervals(path: str | Path) -> pd.DataFrame:
 def compare_intervals(published: pd.DataFrame, metrics: pd.DataFrame, point: pd.DataFrame) -> pd.DataFrame:
     """Two rows (coverage, Winkler score) per printed dataset and method that was run.
 
-    `honest` is GB in the paper preset at 90 % on `test`, averaged over informative coordinates. `nearest` is the single
-    coordinate, model, preset, method of the same package and level whose coverage and Winkler score together come
-    nearest.
+    `honest` is the paper's run at 90 % on `test`, averaged over moving coordinates. `nearest` is the single coordinate,
+    model, preset, method of the same package and level whose coverage and Winkler score together come nearest.
     """
     test = metrics[metrics["subset"] == TEST]
     rows = []
     for printed in published.to_dict("records"):
-        there = test[test["dataset"] == printed["dataset"]]
-        mine = there[there["interval_method"] == printed["interval_method"]]
-        honest = mine[
-            (mine["model"] == PAPERS_RUN[0])
-            & (mine["preset"] == PAPERS_RUN[1])
-            & (mine["confidence_level"] == PAPERS_LEVEL)
-            & (mine["coordinate"] == "mean_informative")
+        of_dataset = test[test["dataset"] == printed["dataset"]]
+        honest = of_dataset[
+            (of_dataset["interval_method"] == printed["interval_method"])
+            & (of_dataset["model"] == PAPERS_RUN.model)
+            & (of_dataset["preset"] == PAPERS_RUN.preset)
+            & (of_dataset["confidence_level"] == PAPERS_LEVEL)
+            & (of_dataset["coordinate"] == "mean_informative")
         ]
         if honest.empty:
             continue
-        similar = there[there["interval_method"].isin(MAY_BE[printed["interval_method"]])]
+        similar = of_dataset[of_dataset["interval_method"].isin(MAY_BE[printed["interval_method"]])]
         nearest = _nearest(similar[~similar["coordinate"].isin(AVERAGES)], printed)
         for metric in METRICS:
             ours = float(honest.iloc[0][metric])
@@ -77,7 +79,9 @@ def compare_intervals(published: pd.DataFrame, metrics: pd.DataFrame, point: pd.
 
 
 def _nearest(rows: pd.DataFrame, printed: dict[str, str]) -> pd.Series:
-    """Distance: coverage in hundredths, Winkler score in twentieths of itself."""
+    """The row nearest to the printed cells; its distance is coverage in hundredths plus Winkler score in twentieths of
+    itself.
+    """
     finite = rows[np.isfinite(rows["winkler_mm"]) & (rows["winkler_mm"] > 0)]
     coverage = (finite["coverage"] - float(printed["coverage"])).abs() / 0.01
     winkler = np.log(finite["winkler_mm"] / float(printed["winkler_mm"])).abs() / 0.05
@@ -91,40 +95,49 @@ def _verdict(printed: str, ours: float) -> str:
 
 
 def _explanation(printed: dict[str, str], ours: float, metric: str, nearest: pd.Series, point: pd.DataFrame) -> str:
-    where = (
+    nearest_text = (
         f"nearest single coordinate: {nearest['coordinate']}, {nearest['model']} {nearest['preset']}, "
         f"{nearest['interval_method']} at {nearest['confidence_level']:.0%}"
     )
     if metric != "winkler_mm" or not printed["interval_method"].startswith("scp"):
-        return f"average over moving coordinates {format_number(ours)}; {where}"
-    chosen = (point["dataset"] == printed["dataset"]) & (point["subset"] == TEST)
-    scores = point[chosen & (point["model"] == PAPERS_RUN[0]) & (point["preset"] == PAPERS_RUN[1])]
+        return f"average over moving coordinates {_rounded(ours)}; {nearest_text}"
+    on_test = (point["dataset"] == printed["dataset"]) & (point["subset"] == TEST)
+    scores = point[on_test & (point["model"] == PAPERS_RUN.model) & (point["preset"] == PAPERS_RUN.preset)]
     least = 2 * float(scores["mae_informative_mm"].iloc[0])
-    bound = f"an average cannot be below 2 MAE = {format_number(least)} mm"
+    bound = f"an average cannot be below 2 MAE = {_rounded(least)} mm"
     verdict = (
         "so the printed score is no average" if float(printed[metric]) < least else "which the printed score keeps"
     )
-    return f"average over moving coordinates {format_number(ours)}; {bound}, {verdict}; {where}"
+    return f"average over moving coordinates {_rounded(ours)}; {bound}, {verdict}; {nearest_text}"
 
 
-def table_6(cells: pd.DataFrame, titles: dict[str, str], methods: dict[str, str]) -> PaperTable:
-    """Table 6 in the paper's layout: printed beside our honest average."""
-    shown = [method for method in methods if method in set(cells["interval_method"])]
-    header = ["Metric", *(f"{methods[m]} {source}" for m in shown for source in ("printed", "ours"))]
+def _rounded(value: float) -> str:
+    """Three significant digits, with an exponent where small: the format of published_intervals.csv."""
+    if value == 0 or not np.isfinite(value):
+        return str(value)
+    decimals = max(0, 2 - int(np.floor(np.log10(abs(value)))))
+    return f"{value:.{decimals}f}" if decimals <= 5 else f"{value:.2e}"
+
+
+def table_6(cells: pd.DataFrame, dataset_titles: Mapping[str, str], titles: Titles) -> PaperTable:
+    """Table 6 in the paper's layout: printed beside our average over moving coordinates."""
+    methods = [method for method in titles.methods if method in set(cells["interval_method"])]
+    header = ["Metric", *(f"{titles.methods[m]} {source}" for m in methods for source in ("printed", "ours"))]
     rows, groups = [], []
-    for dataset, mine in cells.groupby("dataset", sort=False):
+    for dataset, of_dataset in cells.groupby("dataset", sort=False):
         for metric, heading in METRICS.items():
             row = [heading]
-            for method in shown:
-                cell = mine[(mine["interval_method"] == method) & (mine["metric"] == metric)]
+            for method in methods:
+                cell = of_dataset[(of_dataset["interval_method"] == method) & (of_dataset["metric"] == metric)]
                 row += (
-                    [cell["printed"].iloc[0], format_number(cell["honest_value"].iloc[0])] if len(cell) else ["-"] * 2
+                    [cell["printed"].iloc[0], number_text(cell["honest_value"].iloc[0])] if len(cell) else [NOTHING] * 2
                 )
             rows.append(row)
-        groups.append((titles[str(dataset)], len(METRICS)))
+        groups.append((dataset_titles[str(dataset)], len(METRICS)))
     notes = [
-        "Ours: gradient boosting in the paper preset, nominal 90 %, test rows, averaged over the coordinates that "
-        "move. The printed cells are almost surely one coordinate each, and the two SCP columns not one level: "
-        "calibrated alike, MAPIE and crepes give the same interval. published_intervals.csv names what comes nearest."
+        "Ours: gradient boosting in the paper preset, nominal level 90 %, test rows, averaged over the moving "
+        "coordinates. The printed cells are almost surely one coordinate each, and the two SCP columns not of one "
+        "level: calibrated alike, MAPIE and crepes give the same interval. published_intervals.csv names what comes "
+        "nearest."
     ]
     return PaperTable("Table 6: conformal prediction and quantile regression", header, rows, set(), groups, notes)

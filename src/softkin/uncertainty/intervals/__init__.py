@@ -1,4 +1,4 @@
-"""Interval methods: one file a method, one line here."""
+"""Registry of interval methods: one file a method, one line here."""
 
 from __future__ import annotations
 

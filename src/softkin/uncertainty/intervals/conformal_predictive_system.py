@@ -1,4 +1,4 @@
-"""Conformal predictive system by crepes: a whole predictive distribution, of which any quantile can be asked."""
+"""Conformal predictive system by crepes: intervals between two quantiles of a predictive distribution."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Conformalized quantile regression by MAPIE: predicted quantiles, moved apart (or together) by one number."""
+"""Conformalized quantile regression (CQR) by MAPIE: predicted quantiles, moved apart or together by one number."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ from softkin.uncertainty.intervals.spec import MARGINAL, IntervalMethod
 def intervals(data: QuantileCalibration, confidence_levels: Sequence[float], *, symmetric: bool = True) -> Array:
     """Romano, Patterson and Candes (2019), Algorithm 1: one correction for both sides, calibrated per coordinate.
 
-    One calibration serves all levels: the scores of one pair of quantiles, each level taking its own rank of them, so
-    that wider levels contain narrower ones. With `symmetric` False each side gets its own correction at half the
-    error (their Theorem 2).
+    All levels use the scores of one pair of quantiles, each its own rank of them, so that intervals of higher levels
+    contain those of lower ones. With `symmetric` False each side has its own correction at half the miscoverage (their
+    Theorem 2).
     Source: mapie.regression.ConformalizedQuantileRegressor with fitted quantile models. Its default correction is
     the asymmetric one. Infinite where the calibration set is too small.
     """
@@ -37,7 +37,7 @@ def intervals(data: QuantileCalibration, confidence_levels: Sequence[float], *, 
 
     n = len(data.truth)
     result = unbounded(len(confidence_levels), data.new.shape[1:-1])
-    # The pair of quantiles that is corrected is that of the level nearest to the paper's.
+    # The corrected pair of quantiles is that of the level nearest to the paper's.
     base = int(np.argmin(np.abs(np.asarray(confidence_levels) - PAPERS_LEVEL)))
     pairs, new_pairs = (_with_middle(uncrossed(quantiles[base])) for quantiles in (data.calibration, data.new))
     for place, level in enumerate(confidence_levels):
@@ -60,12 +60,12 @@ def intervals(data: QuantileCalibration, confidence_levels: Sequence[float], *, 
 
 
 def _with_middle(pairs: Array) -> Array:
-    """MAPIE wants a point prediction too: lower, upper, middle."""
+    """Pairs of quantiles with their middle (..., 3), which MAPIE needs as a point prediction: lower, upper, middle."""
     return np.concatenate([pairs, pairs.mean(axis=-1, keepdims=True)], axis=-1)
 
 
 def asymmetric_intervals(data: QuantileCalibration, confidence_levels: Sequence[float]) -> Array:
-    """Each side with its own correction, at half the error."""
+    """As `intervals`, with a correction for each side, at half the miscoverage."""
     return intervals(data, confidence_levels, symmetric=False)
 
 

@@ -1,4 +1,4 @@
-"""CV+ by MAPIE: every row of `train` is judged by the fold model that has not seen it; no calibration set needed."""
+"""CV+ by MAPIE: each row of `train` is scored by the refit that holds it out; no calibration set is needed."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ def intervals(data: FoldCalibration, confidence_levels: Sequence[float]) -> Arra
     ranks = {place: conformal_rank(n, level) for place, level in enumerate(confidence_levels)}
     finite = {place: engine_level(n, rank) for place, rank in ranks.items() if rank is not None}
     fold_of_row = np.empty(n, dtype=np.intp)
-    for place, inside in enumerate(data.fitted_rows):
-        fold_of_row[np.setdiff1d(np.arange(n), inside)] = place
+    for fold, fitted_rows in enumerate(data.fitted_rows):
+        fold_of_row[np.setdiff1d(np.arange(n), fitted_rows)] = fold
     rows, new_rows = np.arange(n)[:, None], n + np.arange(data.new.shape[1])[:, None]
     together = np.concatenate([data.train, data.new], axis=1)
     for coordinate, true in enumerate(columns(data.truth)):
         predicted = together[..., coordinate]
         refits = Refits(
-            {key(inside): mine for inside, mine in zip(data.fitted_rows, predicted, strict=True)},
+            {key(fitted_rows): of_fit for fitted_rows, of_fit in zip(data.fitted_rows, predicted, strict=True)},
             predicted.mean(axis=0),
         )
         regressor = CrossConformalRegressor(

@@ -1,4 +1,4 @@
-"""A model's own predictive interval, as a Gaussian process or a Bayesian network gives it: nothing calibrates it."""
+"""Predictive interval of the model itself, of a Gaussian process or a Bayesian network, without calibration."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def crps(data: PredictiveCalibration, true: Array) -> Array:
 
 METHOD = IntervalMethod(
     "gaussian",
-    "Own interval",
+    "Model's own interval",
     calibrated_on=PredictiveCalibration,
     guarantee=NO_GUARANTEE,
     intervals=intervals,

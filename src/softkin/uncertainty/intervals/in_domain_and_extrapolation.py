@@ -1,4 +1,4 @@
-"""One interval for everywhere: a calibrated one inside the training region, the shells' outside it."""
+"""Intervals for every command: a calibrated method's in-domain, those of rolling shells in extrapolation."""
 
 from __future__ import annotations
 
@@ -10,36 +10,39 @@ from numpy.typing import NDArray
 from softkin.core.samples import Array
 from softkin.uncertainty.calibration_data import ShellCalibration
 from softkin.uncertainty.conformal import around, conformal_limits, conformal_rank
-from softkin.uncertainty.error_growth import reach
+from softkin.uncertainty.error_growth import train_radius
 from softkin.uncertainty.intervals.rolling_shells import half_widths
 from softkin.uncertainty.intervals.spec import MARGINAL, IntervalMethod
 
 
 def intervals(data: ShellCalibration, confidence_levels: Sequence[float]) -> Array:
-    """`data.in_domain`, or split conformal prediction, for commands inside, so that `test` is covered as often as
-    promised and not more. Outside, the interval of rolling shells, stretched to hold that of split conformal prediction
-    and `inside`, where that is informed: one that grows with the distance alone knows nothing of errors out there.
+    """In-domain `data.in_domain`, or split conformal prediction; in extrapolation the interval of rolling shells.
 
-    Of rows exchangeable with the n of `train` at most a share 2 / (n + 1) lies outside (one may reach farthest, one be
-    farthest from its neighbours): a method of inside that is not held there loses no more than that.
+    The latter is widened to contain that of split conformal prediction, and `data.in_domain` if that is calibrated on a
+    spread: bounds that grow with the distance alone carry no information on errors in extrapolation.
+
+    Of new rows exchangeable with the n of `train`, at most a share 2 / (n + 1) is taken for extrapolation (one may have
+    the largest norm, one the widest gap), and the in-domain method loses at most that much coverage.
     """
     deployed, bounds = data.deployed, data.in_domain
     limits = conformal_limits(np.abs(deployed.truth - deployed.calibration), confidence_levels)[:, None]
     if bounds is None:
         bounds = around(deployed.new, np.broadcast_to(limits, (len(limits), *deployed.new.shape)))
-    apart = is_in_extrapolation(data)
-    if not apart.any():
+    in_extrapolation = is_in_extrapolation(data)
+    if not in_extrapolation.any():
         return bounds
-    beyond = around(deployed.new, np.maximum(limits, half_widths(data, confidence_levels)))
+    wider = around(deployed.new, np.maximum(limits, half_widths(data, confidence_levels)))
     if data.in_domain_has_spread:
-        lower, upper = np.minimum(bounds[..., 0], beyond[..., 0]), np.maximum(bounds[..., 1], beyond[..., 1])
-        beyond = np.stack([lower, upper], axis=-1)
-    return np.where(apart[:, None, None], beyond, bounds)
+        lower, upper = np.minimum(bounds[..., 0], wider[..., 0]), np.maximum(bounds[..., 1], wider[..., 1])
+        wider = np.stack([lower, upper], axis=-1)
+    return np.where(in_extrapolation[:, None, None], wider, bounds)
 
 
 def is_in_extrapolation(data: ShellCalibration) -> NDArray[np.bool_]:
-    """Which new commands (n_rows,) lie outside the training region: farther out than any of `train`, or, in
-    standardised command space, farther from `train` than any command of it lies from the others.
+    """Which new commands (n_rows,) lie in extrapolation.
+
+    Those beyond the largest norm of `train`, and those that are farther from their nearest command of `train`, in
+    standardised command space, than any command of `train` from its own.
     """
     from sklearn.neighbors import NearestNeighbors
     from sklearn.preprocessing import StandardScaler
@@ -48,13 +51,13 @@ def is_in_extrapolation(data: ShellCalibration) -> NDArray[np.bool_]:
     scaler = StandardScaler().fit(train)
     finder = NearestNeighbors(n_neighbors=1).fit(np.unique(scaler.transform(train), axis=0))
     widest_gap = finder.kneighbors()[0].max()
-    apart = finder.kneighbors(scaler.transform(new))[0][:, 0] > widest_gap
-    return np.asarray(apart | (data.norm(new) > reach(data)))
+    in_a_gap = finder.kneighbors(scaler.transform(new))[0][:, 0] > widest_gap
+    return np.asarray(in_a_gap | (data.norm(new) > train_radius(data)))
 
 
 METHOD = IntervalMethod(
     "auto",
-    "Inside and outside",
+    "In-domain and extrapolation",
     calibrated_on=ShellCalibration,
     guarantee=MARGINAL,
     intervals=intervals,

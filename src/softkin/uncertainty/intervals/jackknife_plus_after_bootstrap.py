@@ -1,4 +1,4 @@
-"""Jackknife+-after-bootstrap by MAPIE: every row of `train` is judged by the refits that have not drawn it."""
+"""Jackknife+-after-bootstrap by MAPIE: each row of `train` is scored by the refits that hold it out."""
 
 from __future__ import annotations
 
@@ -34,11 +34,11 @@ def intervals(data: ResampleCalibration, confidence_levels: Sequence[float]) -> 
     for coordinate, true in enumerate(columns(data.truth)):
         predicted = together[..., coordinate]
         refits = Refits(
-            {key(inside): mine for inside, mine in zip(data.fitted_rows, predicted, strict=True)},
+            {key(fitted_rows): of_fit for fitted_rows, of_fit in zip(data.fitted_rows, predicted, strict=True)},
             predicted.mean(axis=0),
         )
         regressor = JackknifeAfterBootstrapRegressor(
-            Refitted(refits), confidence_level=list(finite.values()), resampling=_drawn(data.fitted_rows)
+            Refitted(refits), confidence_level=list(finite.values()), resampling=_resampling(data.fitted_rows)
         )
         with global_random_state_kept():
             regressor.fit_conformalize(rows, true)
@@ -47,16 +47,16 @@ def intervals(data: ResampleCalibration, confidence_levels: Sequence[float]) -> 
     return result
 
 
-def _drawn(inside: Sequence[NDArray[np.intp]]) -> Any:
-    """MAPIE's way of resampling, with the samples that were drawn when the models were refitted."""
+def _resampling(samples: Sequence[NDArray[np.intp]]) -> Any:
+    """MAPIE's resampling object, which returns the bootstrap `samples` that the models were refitted on."""
     from mapie import subsample
 
     class Subsample(subsample.Subsample):  # type: ignore[misc]  # MAPIE asks for the class by this name
         def split(self, X: Array, *_: Any, **__: Any) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp]]]:
-            for rows in inside:
+            for rows in samples:
                 yield rows, np.setdiff1d(np.arange(len(X)), rows)
 
-    return Subsample(n_resamplings=len(inside))
+    return Subsample(n_resamplings=len(samples))
 
 
 METHOD = IntervalMethod(

@@ -1,4 +1,4 @@
-"""Quantile regression: the interval between two predicted quantiles, with nothing to correct it."""
+"""Quantile regression: the interval between two predicted quantiles, without calibration."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from softkin.uncertainty.intervals.spec import NO_GUARANTEE, IntervalMethod
 def intervals(data: QuantileCalibration, confidence_levels: Sequence[float]) -> Array:
     """The predicted quantiles at alpha/2 and 1 - alpha/2 of each level; where they cross, in order.
 
-    Each quantile is learnt by itself, so an interval of a wider level need not contain that of a narrower one.
+    Each quantile has a regressor of its own: an interval of a higher level need not contain that of a lower one.
     """
     return uncrossed(data.new)
 

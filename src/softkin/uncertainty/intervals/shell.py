@@ -1,4 +1,4 @@
-"""Calibrated on a shell of `train`: what a model fitted on the inner commands gets wrong on those around them."""
+"""Intervals calibrated on an outer shell of `train`: errors of a model fitted on the core within it."""
 
 from __future__ import annotations
 
@@ -9,36 +9,37 @@ import numpy as np
 from softkin.core.samples import Array
 from softkin.uncertainty.calibration_data import Shell, ShellCalibration
 from softkin.uncertainty.conformal import around, conformal_limits
-from softkin.uncertainty.error_growth import new_distances, reach
+from softkin.uncertainty.error_growth import new_distances, train_radius
 from softkin.uncertainty.intervals.spec import NO_GUARANTEE, IntervalMethod
 
 CORE_SHARE = 0.7
 
 
 def intervals(data: ShellCalibration, confidence_levels: Sequence[float]) -> Array:
-    """Of constant width: the conformal quantile of the absolute residuals that the model of a core has on its shell,
-    around what the model of all of `train` predicts. The core is that nearest to 70 % of the rows of `train`.
+    """Of constant width, around the prediction of the model fitted on all of `train`.
 
-    It would hold if new commands were to `train` what the shell is to its core; that is likely, and not guaranteed.
+    The half-width is the conformal quantile of the absolute residuals of the model of a core on its shell; the core is
+    that nearest to 70 % of the rows of `train`. It covers as asked if new commands relate to `train` as the shell to
+    its core, which nothing guarantees.
     """
 
-    def off(shell: Shell) -> float:
-        core = len(shell.core_commands)
-        return abs(core / (core + len(shell.commands)) - CORE_SHARE)
+    def difference(shell: Shell) -> float:
+        n_core = len(shell.core_commands)
+        return abs(n_core / (n_core + len(shell.commands)) - CORE_SHARE)
 
-    return _calibrated_on(min(data.shells, key=off), data, confidence_levels)
+    return _calibrated_on(min(data.shells, key=difference), data, confidence_levels)
 
 
 def matched_intervals(data: ShellCalibration, confidence_levels: Sequence[float]) -> Array:
-    """Likewise, with the core whose shell reaches as far beyond it, relatively, as the new commands reach beyond
-    `train`. It looks at the new commands, not at their positions.
+    """As `intervals`, with the core for which radius of `train` / radius of the core is nearest, in logarithms, to the
+    largest distance of the new commands. It uses the new commands, not their positions.
     """
-    wanted = np.log(new_distances(data).max())
+    largest_distance = np.log(new_distances(data).max())
 
-    def off(shell: Shell) -> float:
-        return float(abs(np.log(reach(data) / data.norm(shell.core_commands).max()) - wanted))
+    def difference(shell: Shell) -> float:
+        return float(abs(np.log(train_radius(data) / data.norm(shell.core_commands).max()) - largest_distance))
 
-    return _calibrated_on(min(data.shells, key=off), data, confidence_levels)
+    return _calibrated_on(min(data.shells, key=difference), data, confidence_levels)
 
 
 def _calibrated_on(shell: Shell, data: ShellCalibration, confidence_levels: Sequence[float]) -> Array:
@@ -48,7 +49,7 @@ def _calibrated_on(shell: Shell, data: ShellCalibration, confidence_levels: Sequ
 
 METHOD = IntervalMethod(
     "shell",
-    "By a shell of train",
+    "Outer shell",
     calibrated_on=ShellCalibration,
     guarantee=NO_GUARANTEE,
     intervals=intervals,
@@ -56,7 +57,7 @@ METHOD = IntervalMethod(
 )
 MATCHED = IntervalMethod(
     "shell_matched",
-    "By a matched shell",
+    "Matched outer shell",
     calibrated_on=ShellCalibration,
     guarantee=NO_GUARANTEE,
     intervals=matched_intervals,

@@ -1,4 +1,4 @@
-"""What an interval method is, and what it can promise."""
+"""Specification of an interval method: an entry of the registry, and the guarantees there are."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from typing import Generic, TypeVar
 from softkin.core.samples import Array
 from softkin.uncertainty.calibration_data import CalibrationData
 
-#: What a calibrated model gives in extrapolation: the intervals of the method of that name, or the same as in-domain.
-AUTO, INSIDE = REGIMES = ("auto", "inside")
+#: Intervals of a calibrated model in extrapolation: those of the method of that name, or the same as in-domain.
+AUTO, IN_DOMAIN = REGIMES = ("auto", "in_domain")
 
-#: What an interval promises of a new row exchangeable with those it was calibrated on, coordinate by coordinate.
+#: Guaranteed coverage of a new row exchangeable with those it was calibrated on, coordinate by coordinate.
 MARGINAL, WEAK, NO_GUARANTEE = GUARANTEES = ("marginal", "marginal at 1 - 2 alpha", "no guarantee")
 
 Data = TypeVar("Data", bound=CalibrationData)
@@ -24,8 +24,8 @@ class IntervalMethod(Generic[Data]):
 
     `calibrated_on` is the class of its calibration data. `intervals(data, confidence_levels)` returns (n_levels,
     n_rows, n_coordinates, 2), lower and upper in mm, levels ascending. `guarantee` is one of `GUARANTEES`.
-    `rank(n_calibration, level)` is the rank that the law of its coverage on exchangeable rows follows from; None when
-    the method calibrates nothing. `has_constant_width`: the same half-width to both sides, on every row.
+    `rank(n_calibration, level)` is the rank of which its coverage on exchangeable rows is beta-binomial; None when the
+    method calibrates nothing. `has_constant_width`: symmetric, of the same width on every row.
     `crps(data, true)` (n_rows, n_coordinates) in mm, for a method that gives a distribution.
     """
 

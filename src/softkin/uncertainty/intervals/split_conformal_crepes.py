@@ -13,7 +13,7 @@ from softkin.uncertainty.intervals.spec import MARGINAL, IntervalMethod
 def intervals(data: PointCalibration, confidence_levels: Sequence[float]) -> Array:
     """The paper's Eq. 5 and 6, one coordinate at a time; infinite where the calibration set is too small.
 
-    Source: crepes.ConformalRegressor without difficulty and bins. Its own rank is one too wide at 0.9 for n = 9 mod
+    Source: crepes.ConformalRegressor without difficulty and bins. Its own rank is one too large at 0.9 for n = 9 mod
     10 (0.9.1, floating point), hence the level from the exact rank.
     """
     from crepes import ConformalRegressor

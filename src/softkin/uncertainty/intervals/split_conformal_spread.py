@@ -1,4 +1,4 @@
-"""Normalised split conformal prediction: wider where the model itself is unsure."""
+"""Normalised split conformal prediction: wider where the spread of the model is large."""
 
 from __future__ import annotations
 
@@ -9,15 +9,14 @@ from softkin.uncertainty.calibration_data import SpreadCalibration
 from softkin.uncertainty.conformal import conformal_rank, normalised_intervals
 from softkin.uncertainty.intervals.spec import MARGINAL, IntervalMethod
 
-#: Added to every spread, as a share of its mean over `train`: a forest's trees may agree by chance.
+#: Added to every spread, as a share of its mean over `train`: the trees of a forest may agree by chance.
 LEAST_SHARE = 0.1
 
 
 def intervals(data: SpreadCalibration, confidence_levels: Sequence[float]) -> Array:
-    """Half-width proportional to the model's own spread: of a forest's trees, of a Gaussian process' posterior, of a
-    network's last layer.
+    """Half-width proportional to the spread of the model: of the trees of a forest, the posterior of a Gaussian process
+    or the last layer of a network.
 
-    So calibrated, the interval of a Gaussian process or a Bayesian network covers what it says.
     Source: Lei et al. (2018), section 5.2; crepes.ConformalRegressor with `sigmas`.
     """
     least = LEAST_SHARE * data.train_spread.mean(axis=0)

@@ -1,5 +1,7 @@
-"""Intervals out there that no ordinary method may give: they look at labels of the rows they are scored on, take them
-in turn, or weigh by how new commands are spread. One file a method, one line here.
+"""Registry of labelled methods: one file a method, one line here.
+
+Unlike interval methods they may use true positions in extrapolation, take rows in turn, or weigh calibration rows by
+the distribution of all new commands.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Calibrated on a few labelled rows out there: what an afternoon of measuring buys."""
+"""Few-label recalibration: split conformal prediction calibrated on a few labelled rows of the new commands."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ N_LABELS = 20
 def answer(labelled: Labelled, confidence_levels: Sequence[float], seed: int, *, by_distance: bool = False) -> Answer:
     """Split conformal prediction calibrated on `N_LABELS` rows, drawn with the seed; the others are scored.
 
-    `by_distance`: wider where the command is far from those of `train`, as `scp_distance` is.
+    `by_distance`: half-widths proportional to the difficulty of `scp_distance`.
     """
     n = len(labelled.errors)
     if n <= N_LABELS:
         reason = f"{n} rows, of which {N_LABELS} would be labelled"
-        nothing = np.full((len(confidence_levels), 0, labelled.errors.shape[1]), np.inf)
-        return Answer(nothing, np.arange(0), [reason] * len(confidence_levels))
+        no_rows = np.full((len(confidence_levels), 0, labelled.errors.shape[1]), np.inf)
+        return Answer(no_rows, np.arange(0), [reason] * len(confidence_levels))
     drawn = np.random.default_rng(seed).permutation(n)
-    known, scored = drawn[:N_LABELS], np.sort(drawn[N_LABELS:])
+    labels, scored = drawn[:N_LABELS], np.sort(drawn[N_LABELS:])
     difficulty = np.ones(n)
     if by_distance:
         (difficulty,) = distances(labelled.train_commands, [labelled.commands])
-    limits = conformal_limits(np.abs(labelled.errors[known]) / difficulty[known, None], confidence_levels)
+    limits = conformal_limits(np.abs(labelled.errors[labels]) / difficulty[labels, None], confidence_levels)
     return Answer(limits[:, None] * difficulty[scored, None], scored, [""] * len(confidence_levels))
 
 

@@ -1,4 +1,4 @@
-"""The oracle: split conformal prediction calibrated on the very rows that it is scored on, each left out in turn."""
+"""The oracle: split conformal prediction calibrated on the rows that it is scored on, each left out in turn."""
 
 from __future__ import annotations
 
@@ -13,8 +13,9 @@ from softkin.uncertainty.labelled.spec import ALL_LABELS, Answer, Labelled, Labe
 
 
 def answer(labelled: Labelled, confidence_levels: Sequence[float], seed: int) -> Answer:
-    """What a calibrated interval of nearly constant width could have been, had one the labels: the measure of all
-    others. Infinite where there are too few rows.
+    """The calibrated interval of nearly constant width that all labels allow, the measure of all other methods.
+
+    Infinite where there are too few rows.
     """
     scores = np.abs(labelled.errors)
     halves = np.stack([_others_limits(scores, level) for level in confidence_levels])
@@ -22,7 +23,7 @@ def answer(labelled: Labelled, confidence_levels: Sequence[float], seed: int) ->
 
 
 def _others_limits(scores: Array, level: float) -> Array:
-    """The conformal limit (n_rows, n_columns) of the scores of all rows but one's own."""
+    """Conformal limit (n_rows, n_columns) of the scores (n_rows, n_columns) of all other rows."""
     rank = conformal_rank(len(scores) - 1, level)
     if rank is None:
         return np.full(scores.shape, np.inf)

@@ -1,4 +1,4 @@
-"""What a method out there sees and gives."""
+"""Specification of a labelled method: an entry of the registry, its input and its answer."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from numpy.typing import NDArray
 
 from softkin.core.samples import Array
 
-#: What a method has looked at of the rows that it is scored on.
+#: True positions that a method uses of the rows it is scored on.
 NO_LABELS, ALL_LABELS, ONE_BY_ONE = "none", "all", "all, each after its interval"
-#: Promised of the average over many rows, in whatever order they come.
+#: Guarantee of the average coverage over many rows, in any order.
 LONG_RUN = "long-run average"
 
 
 @dataclass(frozen=True, slots=True)
 class Labelled:
-    """One model's errors (n_rows, n_coordinates) in mm on the calibration rows and on those that get intervals, and
-    their commands (n_rows, n_commands). `norm` takes commands to how far out they lie (n_rows,).
+    """Errors (n_rows, n_coordinates) in mm of one run on the calibration rows and on those that get intervals, and
+    their commands (n_rows, n_commands). `norm` maps commands to their command norms (n_rows,).
     """
 
     train_commands: Array
@@ -32,8 +32,8 @@ class Labelled:
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """Half-widths (n_levels, n_scored, n_coordinates) in mm of the rows `scored`; `refused` holds for each level why
-    there are none, or nothing. `details` are numbers to be read first.
+    """Half-widths (n_levels, n_scored, n_coordinates) in mm of the rows `scored`. `refused` is, level by level, the
+    reason why there are none, or empty. `details` are diagnostics to be read before the scores.
     """
 
     half_widths: Array
@@ -44,9 +44,10 @@ class Answer:
 
 @dataclass(frozen=True, slots=True)
 class LabelledMethod:
-    """One way to put symmetric intervals around predictions for commands outside `train`.
+    """One way to put symmetric intervals around predictions with the help of labels.
 
-    `answer(labelled, confidence_levels, seed)`; `labels` says what it has looked at, `guarantee` what it promises.
+    `answer(labelled, confidence_levels, seed)` returns the half-widths. `labels` says which true positions it uses of
+    the rows it is scored on, `guarantee` what coverage is guaranteed.
     """
 
     name: str

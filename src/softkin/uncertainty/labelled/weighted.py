@@ -1,4 +1,4 @@
-"""Weighted conformal prediction: calibration rows count as much as their commands are likely out there."""
+"""Weighted conformal prediction under covariate shift: calibration rows count by the likelihood ratio of commands."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from softkin.uncertainty.intervals.spec import NO_GUARANTEE
 from softkin.uncertainty.labelled.spec import NO_LABELS, Answer, Labelled, LabelledMethod
 
 N_FOLDS = 5
-#: No row is taken to be more certainly of one kind than this.
+#: Probabilities are clipped to this and one minus this.
 LEAST_PROBABILITY = 1e-6
 
 
 def answer(labelled: Labelled, confidence_levels: Sequence[float], seed: int) -> Answer:
-    """Tibshirani, Barber, Candes and Ramdas (2019), with likelihood ratios from a classifier that tells the commands
-    of train and calibration from the new ones (section 2.3), each judged by a fold that has not seen it.
+    """Tibshirani, Barber, Candes and Ramdas (2019), with likelihood ratios from a classifier between the commands of
+    `train` and calibration and the new ones (section 2.3), cross-fitted.
 
-    Its `details` come first: `domain_auc`, how well the two are told apart (0.5: not at all); `effective_size`, how
-    many calibration rows are left by weight. A level whose 1/alpha exceeds the effective size is refused.
-    Where the new commands lie outside those of train the likelihood ratio does not exist, and hence no guarantee.
+    Its `details`: `domain_auc`, the AUC of the classifier (0.5: the two are alike); `effective_size`, the effective
+    number of calibration rows by weight. A level whose 1/alpha exceeds the effective size is refused. In extrapolation
+    the likelihood ratio does not exist, hence no guarantee.
     """
     from sklearn.metrics import roc_auc_score
 
@@ -43,7 +43,7 @@ def answer(labelled: Labelled, confidence_levels: Sequence[float], seed: int) ->
 
 
 def _probability_new(commands: Array, is_new: Array, seed: int) -> Array:
-    """That each command (n_rows,) is one of the new: logistic regression on squares and products, cross-fitted."""
+    """Probability (n_rows,) that each command is a new one: cross-fitted logistic regression on quadratic features."""
     from sklearn.linear_model import LogisticRegression
     from sklearn.model_selection import StratifiedKFold, cross_val_predict
     from sklearn.pipeline import make_pipeline
@@ -56,8 +56,8 @@ def _probability_new(commands: Array, is_new: Array, seed: int) -> Array:
         LogisticRegression(max_iter=1000),
     )
     folds = StratifiedKFold(N_FOLDS, shuffle=True, random_state=seed)
-    found = cross_val_predict(classifier, commands, is_new, cv=folds, method="predict_proba")[:, 1]
-    return np.asarray(np.clip(found, LEAST_PROBABILITY, 1 - LEAST_PROBABILITY))
+    probability = cross_val_predict(classifier, commands, is_new, cv=folds, method="predict_proba")[:, 1]
+    return np.asarray(np.clip(probability, LEAST_PROBABILITY, 1 - LEAST_PROBABILITY))
 
 
-METHOD = LabelledMethod("weighted", "Weighted by likelihood", NO_LABELS, NO_GUARANTEE, answer)
+METHOD = LabelledMethod("weighted", "Weighted by likelihood ratio", NO_LABELS, NO_GUARANTEE, answer)

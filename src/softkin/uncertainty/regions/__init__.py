@@ -1,4 +1,4 @@
-"""Joint regions: all moving coordinates inside at once. One file a kind, one line here."""
+"""Registry of joint regions, which hold all moving coordinates at once: one file a shape, one line here."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A ball around every marker."""
+"""Joint region: a ball around every marker."""
 
 from __future__ import annotations
 
@@ -31,7 +31,15 @@ def region(
     *,
     scaled: bool = False,
 ) -> Region:
-    """The largest of the markers' Euclidean errors; `scaled`, each in units of that marker's errors on `train`."""
+    """Balls whose radius is a conformal limit of the largest Euclidean error of a pose.
+
+    Parameters:
+        train_residuals: residuals on `train` (n_train, n_coordinates) in mm, for the scale of each marker.
+        residuals: residuals of the calibration set (n_calibration, n_coordinates) in mm.
+        markers: marker of each coordinate (n_coordinates,).
+        confidence_level: nominal level in (0, 1).
+        scaled: whether errors are in units of the typical error of their marker on `train`.
+    """
     dimensions = np.unique(markers, return_counts=True)[1].astype(float)
     scale = error_scale(marker_errors(train_residuals, markers)) if scaled else np.ones(len(dimensions))
     limit = conformal_limit((marker_errors(residuals, markers) / scale).max(axis=1), confidence_level)

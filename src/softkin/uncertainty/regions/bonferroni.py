@@ -1,4 +1,4 @@
-"""The baseline: an interval per coordinate, each at the error divided by the number of coordinates."""
+"""Joint region, the baseline: an interval per coordinate, each at the miscoverage divided by their number."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from softkin.uncertainty.regions.spec import Region, RegionMethod
 
 
 def region(train_residuals: Array, residuals: Array, markers: NDArray[np.intp], confidence_level: float) -> Region:  # noqa: ARG001
-    """Covers all coordinates at least at the level, whatever they have to do with each other; mostly far above it."""
+    """Joint coverage is at least the nominal level, for any dependence of coordinates, and often far above it."""
     n_coordinates = residuals.shape[1]
     single = 1 - (1 - confidence_level) / n_coordinates
     limits = np.array([conformal_limit(np.abs(column), single) for column in residuals.T])
-    # A coordinate predicted without any error would make the volume 0 and hide all others.
+    # A coordinate without any error would make the volume 0, whatever the others.
     sides = np.maximum(2 * limits, np.finfo(float).tiny)
     return Region(
         covers=lambda new: np.asarray((np.abs(new) <= limits).all(axis=1)),

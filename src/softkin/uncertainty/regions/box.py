@@ -1,4 +1,4 @@
-"""A box around the whole robot: one number for all coordinates, each in its own scale."""
+"""Joint region: a box around the whole robot, with one limit for all coordinates, each in its own scale."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from softkin.uncertainty.regions.spec import Region, RegionMethod
 
 
 def region(train_residuals: Array, residuals: Array, markers: NDArray[np.intp], confidence_level: float) -> Region:  # noqa: ARG001
-    """Max-norm of the residuals in units of the errors on `train`: a split conformal interval of the largest one."""
+    """Split conformal prediction of the largest residual, in units of the typical errors on `train`."""
     scale = error_scale(np.abs(train_residuals))
     limit = conformal_limit(joint_scores(residuals, scale), confidence_level)
     return Region(

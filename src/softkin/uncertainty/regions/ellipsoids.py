@@ -1,4 +1,4 @@
-"""An ellipsoid around every marker, shaped like its errors on `train`."""
+"""Joint region: an ellipsoid around every marker, shaped like its errors on `train`."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ RIDGE = 1e-9
 
 
 def region(train_residuals: Array, residuals: Array, markers: NDArray[np.intp], confidence_level: float) -> Region:
-    """The largest of the markers' Mahalanobis distances, each in units of that marker's distances on `train`."""
+    """Split conformal prediction of the largest Mahalanobis distance, in units of typical distances on `train`."""
     from scipy.linalg import solve_triangular
 
     factors = [_cholesky(train_residuals[:, markers == one]) for one in np.unique(markers)]
@@ -37,10 +37,10 @@ def region(train_residuals: Array, residuals: Array, markers: NDArray[np.intp], 
 
 
 def _cholesky(residuals: Array) -> Array:
-    """Lower factor of the residuals' second moments; a ball where there are none."""
+    """Lower Cholesky factor of the second moments of residuals; that of a ball where they are 0."""
     moments = residuals.T @ residuals / len(residuals)
     mean = float(np.trace(moments)) / len(moments)
-    if mean == 0:  # a model that repeats `train` exactly says nothing about shape
+    if mean == 0:  # a model that repeats `train` exactly
         return np.eye(len(moments))
     return np.asarray(np.linalg.cholesky(moments + RIDGE * mean * np.eye(len(moments))))
 

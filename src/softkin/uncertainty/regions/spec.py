@@ -1,4 +1,4 @@
-"""What a joint region is."""
+"""Specification of a joint region: an entry of the registry, and a calibrated region."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from softkin.core.samples import Array
 
 @dataclass(frozen=True, slots=True)
 class Region:
-    """A region around a predicted pose, the same at every command. `covers` takes residuals (n_rows, n_coordinates)
-    in mm to (n_rows,); `size_mm` is the side of a cube of the same volume in all moving coordinates together.
+    """A region around a predicted pose, the same at every command. `covers` maps residuals (n_rows, n_coordinates) in
+    mm to (n_rows,); `size_mm` is the side of a cube of the same volume in all moving coordinates together.
     """
 
     covers: Callable[[Array], NDArray[np.bool_]]
@@ -27,7 +27,7 @@ class RegionMethod:
 
     `region(train_residuals, calibration_residuals, markers, confidence_level)`: residuals (n_rows, n_coordinates) in
     mm of the moving coordinates; `markers` (n_coordinates,) says which marker each belongs to. `is_exact`: its joint
-    coverage follows the exact law of a conformal rank; else it is at least the level.
+    coverage has the beta-binomial distribution of a conformal rank; else it is at least the nominal level.
     """
 
     name: str

@@ -27,7 +27,7 @@ def run(tmp_path: Path) -> Progress:
     return run
 
 
-def test_the_screen_tells_stage_dataset_model_trials_and_times(run: Progress) -> None:
+def test_the_screen_shows_stage_dataset_model_trials_and_times(run: Progress) -> None:
     lines = screen_lines(run, 190.0, title="softkin default", width=100, height=20)
     assert lines == [
         "softkin default · 1 of 4 jobs · 1 min 30 s used · roughly 5 min left",
@@ -38,7 +38,7 @@ def test_the_screen_tells_stage_dataset_model_trials_and_times(run: Progress) ->
 
 
 @pytest.mark.parametrize(("width", "height"), [(20, 3), (80, 24), (1, 1)])
-def test_it_keeps_within_the_terminal(run: Progress, width: int, height: int) -> None:
+def test_the_screen_keeps_within_the_terminal(run: Progress, width: int, height: int) -> None:
     lines = screen_lines(run, 190.0, title="softkin", width=width, height=height)
     assert len(lines) <= height
     assert all(len(line) <= width for line in lines)
@@ -56,7 +56,7 @@ def test_a_log_gets_one_line_for_a_job(run: Progress) -> None:
 
 
 @pytest.mark.parametrize(
-    ("remaining", "said"),
+    ("remaining", "expected"),
     [
         (Remaining(None), "no estimate yet"),
         (Remaining(10.0, is_rough=True), "no estimate yet"),
@@ -65,5 +65,5 @@ def test_a_log_gets_one_line_for_a_job(run: Progress) -> None:
         (Remaining(180.0, is_rough=True), "roughly 3 min left"),
     ],
 )
-def test_an_estimate_says_how_good_it_is(remaining: Remaining, said: str) -> None:
-    assert time_left(remaining) == said
+def test_an_estimate_says_how_good_it_is(remaining: Remaining, expected: str) -> None:
+    assert time_left(remaining) == expected

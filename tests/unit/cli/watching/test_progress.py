@@ -31,7 +31,7 @@ def test_cores_share_the_work_but_not_one_job() -> None:
     assert progress(*jobs[:2], cores=2).remaining(0.0) == Remaining(10.0)
 
 
-def test_a_job_that_takes_longer_than_before_is_not_owed_time() -> None:
+def test_a_job_that_takes_longer_than_before_has_no_time_left() -> None:
     run = progress(Job("tune", {}, earlier=30.0), Job("fit", {}, earlier=5.0))
     run.begin(0, 0.0)
     assert run.remaining(100.0) == Remaining(5.0)
@@ -42,7 +42,7 @@ def test_without_an_earlier_run_a_rule_takes_what_it_has_taken() -> None:
     for number, seconds in enumerate((2.0, 4.0)):
         run.begin(number, 10.0)
         run.end(number, 10.0 + seconds)
-    assert run.remaining(20.0) == Remaining(6.0, is_rough=True)  # two predictions of 3 s; nobody knows the report
+    assert run.remaining(20.0) == Remaining(6.0, is_rough=True)  # two predictions of 3 s; the report is unknown
 
 
 def test_most_jobs_unknown_is_no_estimate() -> None:
@@ -62,7 +62,7 @@ def test_a_study_is_projected_from_its_trials(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("text", ["", "2026-01-01 INFO fitted on 120 rows in 0.2 s\n"])
-def test_a_log_without_trials_tells_none(tmp_path: Path, text: str) -> None:
+def test_a_log_without_trials_has_none(tmp_path: Path, text: str) -> None:
     (tmp_path / "fit.log").write_text(text)
     assert trials(tmp_path / "fit.log") is None
     assert trials(tmp_path / "missing.log") is None
@@ -95,7 +95,7 @@ def test_a_failed_job_is_neither_done_nor_a_measure() -> None:
     assert run.failed == 0
 
 
-def test_a_job_that_does_no_work_is_nobody() -> None:
+def test_a_job_that_does_no_work_is_not_counted() -> None:
     run = progress(Job("fit", {}))
     run.begin(99, 0.0)
     assert run.end(99, 1.0) is None

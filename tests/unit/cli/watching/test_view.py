@@ -1,4 +1,4 @@
-"""The view, told what Snakemake tells, on a made-up stream: a terminal or none."""
+"""The view gets Snakemake's events, on a made-up stream: a terminal or none."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import pty
 import select
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TextIO
 
 import pytest
 
@@ -31,7 +32,7 @@ def jobs(log: Path | None = None) -> Progress:
 
 
 def run_of(logger: logging.Logger) -> None:
-    """As Snakemake tells a run in which one job ends and another fails."""
+    """Snakemake's messages of a run in which one job ends and another fails."""
     logger.info("Select jobs to execute...")
     logger.info("Execute 1 jobs...", extra={"event": "job_started", "jobs": [1]})
     logger.info(" Rule: prepare", extra={"event": "job_info", "jobid": 1})
@@ -41,16 +42,16 @@ def run_of(logger: logging.Logger) -> None:
 
 
 def written_to(master: int) -> str:
-    """All that waits at the other end of a pseudo-terminal, however many pieces it comes in."""
-    found = b""
+    """All that a pseudo-terminal was sent."""
+    written = b""
     while select.select([master], [], [], 0.5)[0]:
-        found += os.read(master, 65536)
-    return found.decode()
+        written += os.read(master, 65536)
+    return written.decode()
 
 
 def test_a_log_file_gets_plain_lines(logger: logging.Logger) -> None:
     stream = io.StringIO()
-    own = logging.StreamHandler(stream)
+    own: logging.StreamHandler[TextIO] = logging.StreamHandler(stream)
     logger.addHandler(own)
     ticks = iter(range(100))
     view = View(jobs(), own, "softkin test", clock=lambda: float(next(ticks)))
@@ -81,7 +82,7 @@ def test_a_terminal_gets_one_screen_and_the_warnings_of_jobs(
     )
     master, slave = pty.openpty()
     with os.fdopen(slave, "w") as stream:
-        own = logging.StreamHandler(stream)
+        own: logging.StreamHandler[TextIO] = logging.StreamHandler(stream)
         logger.addHandler(own)
         view = View(jobs(log), own, "softkin test")
         view.start(logger)
@@ -111,15 +112,15 @@ def test_a_dumb_terminal_gets_plain_lines(monkeypatch: pytest.MonkeyPatch) -> No
     os.close(master)
 
 
-class Gone(io.StringIO):
+class ClosedPipe(io.StringIO):
     """A pipe that nobody reads any more."""
 
     def flush(self) -> None:
         raise BrokenPipeError
 
 
-def test_a_reader_who_is_gone_does_not_stop_the_run(logger: logging.Logger) -> None:
-    view = View(jobs(), logging.StreamHandler(Gone()), "softkin test")
+def test_a_closed_pipe_does_not_stop_the_run(logger: logging.Logger) -> None:
+    view = View(jobs(), logging.StreamHandler(ClosedPipe()), "softkin test")
     view.start(logger)
     run_of(logger)
     view.finish(logger)

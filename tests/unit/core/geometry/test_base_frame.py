@@ -46,21 +46,21 @@ def test_points_come_back_from_the_frame_of_the_base(origin: list[float], axis: 
 
 @pytest.mark.parametrize("axis", [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, -2.0, 0.5]])
 @pytest.mark.parametrize("n_markers", [1, 3])
-def test_origin_and_axis_are_found_where_nothing_is_declared(axis: list[float], n_markers: int) -> None:
+def test_origin_and_axis_are_estimated_where_nothing_is_declared(axis: list[float], n_markers: int) -> None:
     true = BaseFrame(np.array([30.0, -400.0, 12.0]), unit(axis))
-    found = base_frame(*bent(true, n_markers=n_markers))
-    np.testing.assert_allclose(found.origin, true.origin, atol=1e-3)
-    np.testing.assert_allclose(found.axis, true.axis, atol=1e-5)
+    frame = base_frame(*bent(true, n_markers=n_markers))
+    np.testing.assert_allclose(frame.origin, true.origin, atol=1e-3)
+    np.testing.assert_allclose(frame.axis, true.axis, atol=1e-5)
 
 
-def test_what_was_estimated_from_the_same_rows_is_remembered(monkeypatch: pytest.MonkeyPatch) -> None:
-    frames = [BaseFrame(np.array([1.0, 2.0, z]), unit([0.1, 0.0, 1.0])) for z in (3.0, 4.0)]
-    robots = [bent(frame, n_rows=90) for frame in frames]
-    found = [base_frame(*robot) for robot in robots]
-    assert found[0].origin[2] == pytest.approx(3.0, abs=1e-3)
-    assert found[1].origin[2] == pytest.approx(4.0, abs=1e-3)
+def test_what_was_estimated_from_the_same_rows_is_cached(monkeypatch: pytest.MonkeyPatch) -> None:
+    true = [BaseFrame(np.array([1.0, 2.0, z]), unit([0.1, 0.0, 1.0])) for z in (3.0, 4.0)]
+    robots = [bent(frame, n_rows=90) for frame in true]
+    frames = [base_frame(*robot) for robot in robots]
+    assert frames[0].origin[2] == pytest.approx(3.0, abs=1e-3)
+    assert frames[1].origin[2] == pytest.approx(4.0, abs=1e-3)
     monkeypatch.setattr("softkin.core.geometry.base_frame.least_squares", None)
-    for robot, frame in zip(robots, found, strict=True):
+    for robot, frame in zip(robots, frames, strict=True):
         assert base_frame(*robot) == frame
     with pytest.raises(TypeError):  # other rows are estimated anew
         base_frame(robots[0][0][1:], robots[0][1][1:])
@@ -72,9 +72,9 @@ def test_noise_and_some_gross_outliers_hardly_move_the_base(seed: int) -> None:
     commands, points = bent(true, noise=0.2)
     outliers = np.random.default_rng(seed).choice(len(points), 6, replace=False)
     points[outliers] += 40.0
-    found = base_frame(commands, points)
-    assert np.linalg.norm(found.origin - true.origin) < 4
-    assert found.axis @ true.axis > np.cos(0.05)
+    frame = base_frame(commands, points)
+    assert np.linalg.norm(frame.origin - true.origin) < 4
+    assert frame.axis @ true.axis > np.cos(0.05)
 
 
 def test_what_is_declared_stays_and_the_rest_is_estimated() -> None:
@@ -91,10 +91,10 @@ def test_what_is_declared_stays_and_the_rest_is_estimated() -> None:
 def test_a_marker_that_never_moves_is_the_base() -> None:
     true = BaseFrame(np.array([-36.0, -45.0, 0.0]), unit([0.1, 0.0, 1.0]))
     commands, points = bent(true, n_markers=2)
-    resting = np.tile(true.origin, (len(points), 1, 1))
-    found = base_frame(commands, np.concatenate([resting, points], axis=1))
-    np.testing.assert_array_equal(found.origin, true.origin)
-    np.testing.assert_allclose(found.axis, true.axis, atol=1e-5)
+    constant = np.tile(true.origin, (len(points), 1, 1))
+    frame = base_frame(commands, np.concatenate([constant, points], axis=1))
+    np.testing.assert_array_equal(frame.origin, true.origin)
+    np.testing.assert_allclose(frame.axis, true.axis, atol=1e-5)
 
 
 def test_a_planar_robot_has_its_base_in_its_plane() -> None:
@@ -104,7 +104,7 @@ def test_a_planar_robot_has_its_base_in_its_plane() -> None:
     true = BaseFrame(np.array([4.0, -9.0, 0.0]), np.array([1.0, 0.0, 0.0]))
     x, _, z = np.moveaxis(from_arcs(arcs), -1, 0)
     points = np.stack([4 + z, -9 + x, 0 * x], axis=-1)
-    found = base_frame(commands, points)
-    np.testing.assert_allclose(found.origin, true.origin, atol=1e-3)
-    np.testing.assert_allclose(found.axis, true.axis, atol=1e-5)
-    assert found.origin[2] == found.axis[2] == 0
+    frame = base_frame(commands, points)
+    np.testing.assert_allclose(frame.origin, true.origin, atol=1e-3)
+    np.testing.assert_allclose(frame.axis, true.axis, atol=1e-5)
+    assert frame.origin[2] == frame.axis[2] == 0

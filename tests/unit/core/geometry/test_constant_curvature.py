@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from softkin.core.geometry.constant_curvature import MAX_BENDING, from_arcs, in_domain, spread_of_points, to_arcs
+from softkin.core.geometry.constant_curvature import MAX_BENDING, from_arcs, has_arc, spread_of_points, to_arcs
 
 lengths = st.floats(1e-3, 1e4)
 directions = st.floats(-np.pi, np.pi)
@@ -26,7 +26,7 @@ def test_an_arc_comes_back_from_the_point_that_it_leads_to(bending: float, direc
 @given(st.floats(-500, 500), st.floats(-500, 500), st.floats(-500, 500))
 def test_a_point_comes_back_from_its_arc(x: float, y: float, z: float) -> None:
     points = np.array([[[x, y, z]]])
-    if in_domain(points).all():
+    if has_arc(points).all():
         np.testing.assert_allclose(from_arcs(to_arcs(points)), points, rtol=1e-9, atol=1e-9)
 
 
@@ -48,7 +48,7 @@ def test_an_arc_is_where_its_differential_equation_leads(bending: float, directi
 
 def test_the_base_itself_and_what_lies_straight_behind_it_have_no_arc() -> None:
     points = np.array([[[0.0, 0.0, 0.0]], [[0.0, 0.0, -3.0]], [[0.0, 1.0, -3.0]], [[0.0, 0.0, 3.0]]])
-    np.testing.assert_array_equal(in_domain(points)[:, 0], [False, False, True, True])
+    np.testing.assert_array_equal(has_arc(points)[:, 0], [False, False, True, True])
 
 
 def test_the_spread_of_points_is_that_of_a_cloud_of_arcs() -> None:

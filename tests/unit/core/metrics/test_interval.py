@@ -15,7 +15,9 @@ from softkin.core.metrics.interval import (
     covered,
     geometric_size,
     holm,
+    widths,
     winkler_scores,
+    worst_slab,
 )
 from softkin.uncertainty.conformal import conformal_rank
 
@@ -32,8 +34,8 @@ def test_mean_winkler_score_is_mapies(level: float) -> None:
     rng = np.random.default_rng(0)
     true, centre = rng.standard_normal((2, 60, 1))
     intervals = np.stack([centre - 0.7, centre + 0.9], axis=-1)
-    theirs = regression_mwi_score(true[:, 0], intervals[:, 0, :, None], level)
-    assert winkler_scores(true, intervals, level).mean() == pytest.approx(theirs)
+    expected = regression_mwi_score(true[:, 0], intervals[:, 0, :, None], level)
+    assert winkler_scores(true, intervals, level).mean() == pytest.approx(expected)
 
 
 numbers = arrays(float, 20, elements=st.floats(-100, 100))
@@ -57,7 +59,7 @@ def test_bands_of_the_published_subsets(n: int, low: float, high: float) -> None
 
 
 def test_the_band_holds_what_it_says() -> None:
-    """20,000 pairs of calibration and test sets: coverage lies inside the band 95 % of the time or a little more."""
+    """20,000 pairs of calibration and test sets: coverage lies in the band 95 % of the time or a little more."""
     rng = np.random.default_rng(1)
     n, m = 88, 89
     rank = conformal_rank(n, 0.9)
@@ -65,10 +67,10 @@ def test_the_band_holds_what_it_says() -> None:
     bound = np.sort(rng.random((20_000, n)), axis=1)[:, rank - 1]
     coverage = rng.binomial(m, bound) / m  # scores are uniform: a new one lies below the bound with that probability
     low, high = coverage_band(m, n, rank)
-    inside = ((coverage >= low) & (coverage <= high)).mean()
+    share = ((coverage >= low) & (coverage <= high)).mean()
     law = stats.betabinom(m, rank, n + 1 - rank)
     exact = law.cdf(round(high * m)) - law.cdf(round(low * m) - 1)
-    assert inside == pytest.approx(exact, abs=4 * np.sqrt(exact * (1 - exact) / 20_000))
+    assert share == pytest.approx(exact, abs=4 * np.sqrt(exact * (1 - exact) / 20_000))
     assert exact >= 0.95
 
 
@@ -80,8 +82,8 @@ def test_p_values_are_small_where_coverage_is_wrong() -> None:
 
 def test_clopper_pearson_holds_the_truth_often_enough() -> None:
     law = stats.binom(40, 0.35)
-    inside = sum(law.pmf(k) for k in range(41) if clopper_pearson(k, 40)[0] <= 0.35 <= clopper_pearson(k, 40)[1])
-    assert inside >= 0.95
+    probability = sum(law.pmf(k) for k in range(41) if clopper_pearson(k, 40)[0] <= 0.35 <= clopper_pearson(k, 40)[1])
+    assert probability >= 0.95
 
 
 def test_holm_by_hand() -> None:
@@ -92,3 +94,26 @@ def test_holm_by_hand() -> None:
 def test_the_size_of_a_box_is_the_side_of_a_cube_as_large() -> None:
     sizes = geometric_size(np.array([[1.0, 8.0, 1.0], [2.0, 2.0, 2.0]]))
     assert sizes == pytest.approx([2.0, 2.0])
+
+
+def test_widths_are_upper_minus_lower() -> None:
+    assert widths(np.array([[[1.0, 3.5], [-1.0, -1.0]]])).tolist() == [[2.5, 0.0]]
+
+
+def test_the_worst_slab_is_where_rows_are_missed() -> None:
+    rng = np.random.default_rng(0)
+    commands = rng.uniform(-1, 1, (4000, 2)) * [1.0, 100.0]
+    missed = commands[:, 1] > 60.0
+    rows = worst_slab(commands, np.where(missed, 0.0, 1.0), seed=1)
+    assert missed[rows].mean() > 0.8
+    assert len(rows) > 0.15 * 2000
+    np.testing.assert_array_equal(rows, worst_slab(commands, np.where(missed, 0.0, 1.0), seed=1))
+
+
+def test_the_worst_slab_is_not_biased_where_coverage_is_everywhere_the_same() -> None:
+    shares = []
+    for seed in range(30):
+        rng = np.random.default_rng(seed)
+        commands, is_covered = rng.standard_normal((400, 3)), rng.random(400) < 0.9
+        shares.append(is_covered[worst_slab(commands, is_covered.astype(float), seed, n_directions=50)].mean())
+    assert np.mean(shares) == pytest.approx(0.9, abs=0.03)

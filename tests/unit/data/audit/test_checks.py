@@ -28,7 +28,7 @@ ROBOTS = [
 ]
 
 
-def found(samples: dict[str, Samples]) -> list[Finding]:
+def findings_of(samples: dict[str, Samples]) -> list[Finding]:
     return [finding for check in CHECKS.values() for finding in check(samples).findings]
 
 
@@ -37,7 +37,7 @@ def alarms(n_rows: int, n_commands: int, n_markers: int, noise_mm: float, n_seed
     return [
         finding.code
         for seed in range(n_seeds)
-        for finding in found(clean_robot(n_rows, n_commands, n_markers, noise_mm, seed))
+        for finding in findings_of(clean_robot(n_rows, n_commands, n_markers, noise_mm, seed))
         if finding.severity != NOTE
     ]
 
@@ -63,7 +63,7 @@ def published(dataset: str, mirror: Path, folder: Path) -> dict[str, Samples]:
 
 def test_elastica_leaks_whole(published_mirror: Path, tmp_path: Path) -> None:
     samples = published("elastica", published_mirror, tmp_path)
-    findings = found(samples)
+    findings = findings_of(samples)
     leaks = {finding.subsets[0]: finding for finding in findings if finding.severity == "leak"}
     assert set(leaks) == {"validation", "test"}
     assert all("140 of 140 rows" in finding.sentence for finding in leaks.values())
@@ -75,7 +75,7 @@ def test_elastica_leaks_whole(published_mirror: Path, tmp_path: Path) -> None:
 
 def test_abaqus_has_a_constant_marker_stuck_poses_and_one_outlier(published_mirror: Path, tmp_path: Path) -> None:
     samples = published("abaqus", published_mirror, tmp_path)
-    findings = {finding.code: finding for finding in found(samples)}
+    findings = {finding.code: finding for finding in findings_of(samples)}
     assert set(findings) == {"constant_coordinates", "stuck_poses", "gross_outliers"}
     assert "m1_x, m1_y, m1_z (marker 1 as a whole)" in findings["constant_coordinates"].sentence
     assert findings["stuck_poses"].n_rows == {"train": 29, "validation": 5, "test": 5}
@@ -88,5 +88,5 @@ def test_abaqus_has_a_constant_marker_stuck_poses_and_one_outlier(published_mirr
 @pytest.mark.parametrize("dataset", ["elastica_2023_09", "finger"])
 def test_the_other_two_are_sound(dataset: str, published_mirror: Path, tmp_path: Path) -> None:
     samples = published(dataset, published_mirror, tmp_path)
-    assert found(samples) == []
+    assert findings_of(samples) == []
     assert cleaned(samples)[1] == {"stuck_rows": 0, "duplicate_rows": 0}

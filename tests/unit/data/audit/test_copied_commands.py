@@ -18,7 +18,7 @@ def test_copies_of_train_commands_are_a_leak(robot: dict[str, Samples], changed:
     assert result.numbers["test"] == {"rows": 10, "share": 10 / 49}
 
 
-def test_a_copy_in_a_hundred_is_no_leak_but_told(robot: dict[str, Samples], changed: Replace) -> None:
+def test_fewer_copies_than_a_hundredth_are_a_warning(robot: dict[str, Samples], changed: Replace) -> None:
     (finding,) = check(changed("extrapolation", [5], commands=robot["train"].commands[7])).findings
     assert (finding.severity, finding.subsets, finding.rows["extrapolation"]) == (WARNING, ("extrapolation",), (5,))
 

@@ -34,11 +34,11 @@ def test_a_clean_robot_has_a_card_without_findings(robot: dict[str, Samples], tm
     u1 = robot["test"].commands[:, 0]
     assert card["subsets"]["test"]["commands"]["u1"] == [u1.min(), u1.max()]
     assert (card["unit"], card["unit_in_file"], card["removed_from_train"]) == ("mm", "m", None)
-    assert "Nothing was found" in readable
+    assert "There are no findings" in readable
     assert "by `clean`" not in readable
 
 
-def test_what_was_found_stands_in_card_and_page(robot: dict[str, Samples], changed: Replace, tmp_path: Path) -> None:
+def test_findings_stand_in_card_and_page(robot: dict[str, Samples], changed: Replace, tmp_path: Path) -> None:
     samples = changed("test", slice(0, 20), commands=robot["train"].commands[:20])
     samples = changed("train", [300], positions=robot["train"].positions[5], of=samples)
     card, readable = audited(samples, tmp_path, removed={"stuck_rows": 3, "duplicate_rows": 0})
@@ -49,7 +49,7 @@ def test_what_was_found_stands_in_card_and_page(robot: dict[str, Samples], chang
         assert finding["consequence"] in readable
     assert "test, 20 rows (numbered from 0): 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, ..." in readable
     assert "train, 1 row (numbered from 0): 300" in readable
-    assert "Dropped from train before, by `clean`: 3 stuck rows, 0 duplicate rows." in readable
+    assert "Dropped from train by `clean`: 3 stuck rows, 0 duplicate rows." in readable
 
 
 def test_an_audit_says_the_same_twice(robot: dict[str, Samples], tmp_path: Path) -> None:
@@ -93,7 +93,7 @@ def test_the_card_says_where_the_base_stands_and_who_says_so(tmp_path: Path) -> 
     assert depth["origin_from"] == ["declared", "declared", "estimated"]
     assert depth["origin_mm"][2] == pytest.approx(30.0, abs=3.0)
     np.testing.assert_allclose(depth["axis"], [0, 0, 1], atol=0.02)
-    resting = audited(arms[3], tmp_path)[0]["base"]
-    assert resting["origin_from"] == ["a marker that never moves"] * 3
-    assert resting["origin_mm"] == pytest.approx([10.0, 20.0, 30.0])
-    assert resting["axis_from"] == "estimated"
+    constant = audited(arms[3], tmp_path)[0]["base"]
+    assert constant["origin_from"] == ["a marker that never moves"] * 3
+    assert constant["origin_mm"] == pytest.approx([10.0, 20.0, 30.0])
+    assert constant["axis_from"] == "estimated"

@@ -5,7 +5,7 @@ from softkin.data.audit.duplicate_rows import check
 from tests.unit.data.audit.conftest import Replace
 
 
-def test_copies_of_earlier_rows_are_told_per_subset(robot: dict[str, Samples], changed: Replace) -> None:
+def test_copies_of_earlier_rows_are_counted_per_subset(robot: dict[str, Samples], changed: Replace) -> None:
     train, test = robot["train"], robot["test"]
     samples = changed("train", [300, 301, 302], commands=train.commands[5], positions=train.positions[5])
     samples = changed("test", [40], commands=test.commands[39], positions=test.positions[39], of=samples)

@@ -7,7 +7,7 @@ from softkin.data.audit.few_commands import check
 from tests.unit.data.audit.conftest import Replace
 
 
-def test_few_commands_in_many_rows_are_told(robot: dict[str, Samples], changed: Replace) -> None:
+def test_few_commands_in_many_rows_are_a_finding(robot: dict[str, Samples], changed: Replace) -> None:
     few = robot["train"].commands[np.arange(392) % 20]
     result = check(changed("train", slice(None), commands=few))
     (finding,) = result.findings

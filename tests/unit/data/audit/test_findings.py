@@ -12,6 +12,7 @@ from softkin.data.audit.findings import (
     Finding,
     counted,
     finding_of_rows,
+    leak_notes,
     leaking_subsets,
     worst_severity,
 )
@@ -49,3 +50,17 @@ def test_only_a_leak_makes_a_subset_leak() -> None:
     ]
     assert leaking_subsets({"findings": findings}) == {"test", "validation"}
     assert leaking_subsets({"findings": []}) == set()
+
+
+def test_the_notes_of_a_card_are_those_of_its_leaks_by_subset() -> None:
+    findings = [
+        Finding("copies", LEAK, ("test",), "Copied.", "Training error.").as_dict(),
+        Finding("near_copies", LEAK, ("test", "validation"), "Nearly copied.", "Too narrow.").as_dict(),
+        Finding("shift", WARNING, ("extrapolation",), "Shifted.", "Beware.").as_dict(),
+    ]
+    second = "LEAK: Nearly copied. Too narrow."
+    assert leak_notes({"findings": findings}) == {
+        "test": f"LEAK: Copied. Training error. {second}",
+        "validation": second,
+    }
+    assert leak_notes({"findings": []}) == {}

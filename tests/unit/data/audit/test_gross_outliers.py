@@ -35,7 +35,7 @@ def test_a_fault_that_is_off_by_less_than_a_hundredth_of_the_reach_is_not_gross(
     assert not check(changed("train", [17], positions=robot["train"].positions[17] + 0.3)).findings
 
 
-def test_noise_that_grows_with_the_command_does_not_trip_it() -> None:
+def test_noise_that_grows_with_the_command_is_no_finding() -> None:
     rng = np.random.default_rng(0)
     samples = {
         subset: Samples(

@@ -39,7 +39,7 @@ def test_exact_copies_are_left_to_their_own_check(robot: dict[str, Samples], cha
 
 
 @pytest.mark.parametrize("n_commands", [1, 2, 6])
-def test_independent_commands_do_not_trip_it_however_unevenly_they_lie(n_commands: int) -> None:
+def test_independent_commands_are_no_finding_however_unevenly_they_lie(n_commands: int) -> None:
     rng = np.random.default_rng(n_commands)
     for _ in range(5):
         # Half of the rows explore a corner a hundred times as closely as the rest.
@@ -51,7 +51,7 @@ def test_independent_commands_do_not_trip_it_however_unevenly_they_lie(n_command
         assert not check(samples).findings
 
 
-def test_a_grid_does_not_trip_it() -> None:
+def test_a_grid_is_no_finding() -> None:
     grid = np.stack(np.meshgrid(np.arange(30.0), np.arange(30.0)), axis=-1).reshape(-1, 2)
     parts = np.split(np.random.default_rng(0).permutation(grid), [600, 700, 800])
     names = ("train", "validation", "test", "extrapolation")

@@ -9,7 +9,7 @@ from tests.unit.data.audit.clean_robot import clean_robot
 from tests.unit.data.audit.conftest import Replace
 
 
-def test_a_test_subset_from_elsewhere_is_told(robot: dict[str, Samples], changed: Replace) -> None:
+def test_a_test_subset_from_elsewhere_is_a_finding(robot: dict[str, Samples], changed: Replace) -> None:
     result = check(changed("test", slice(None), commands=robot["test"].commands * 0.3 + [0.5, 0.0]))
     (finding,) = result.findings
     assert (finding.code, finding.severity, finding.subsets) == ("shifted_subset", "warning", ("test",))
@@ -17,14 +17,14 @@ def test_a_test_subset_from_elsewhere_is_told(robot: dict[str, Samples], changed
     assert result.numbers["test"]["auc"] > 0.8
 
 
-def test_a_marker_registered_anew_before_the_test_is_told(robot: dict[str, Samples], changed: Replace) -> None:
+def test_a_marker_registered_anew_before_the_test_is_a_finding(robot: dict[str, Samples], changed: Replace) -> None:
     """Positions have moved, commands have not."""
     shift = np.array([0, 0, 0, 100.0, 0, 0])
     (finding,) = check(changed("test", slice(None), positions=robot["test"].positions + shift)).findings
     assert "m2_x" in finding.sentence
 
 
-def test_an_extrapolation_subset_drawn_like_train_is_told() -> None:
+def test_an_extrapolation_subset_drawn_like_train_is_a_finding() -> None:
     whole = clean_robot(3000, seed=4)["train"]
     parts = np.split(np.arange(len(whole)), [800, 1000, 1200])
     names = ("train", "validation", "test", "extrapolation")
@@ -34,7 +34,7 @@ def test_an_extrapolation_subset_drawn_like_train_is_told() -> None:
 
 
 @pytest.mark.parametrize("n_commands", [1, 2, 6])
-def test_a_random_split_with_an_outer_shell_does_not_trip_it(n_commands: int) -> None:
+def test_a_random_split_with_an_outer_shell_is_no_finding(n_commands: int) -> None:
     result = check(clean_robot(600, n_commands=n_commands, seed=5))
     assert not result.findings
     assert result.numbers["extrapolation"]["auc"] > 0.95

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from softkin.core.errors import SoftkinError
+from softkin.core.errors import DataError
 from softkin.data.readers.columns import axis_of, check, choose, marker_by_marker, unit_of
 
 NAMES = ["t", "u1", "u2", "m1_x", "m1_y", "m1_z", "m2_x", "m2_y", "m2_z", "note", "note"]
@@ -62,17 +62,17 @@ def test_a_name_with_signs_of_patterns_is_a_name_first() -> None:
 @pytest.mark.parametrize(
     ("wanted", "says"),
     [
-        (["u3"], ["no column 'u3'", "the columns are t, u1"]),
-        ("v[0-9]", ["'v[0-9]' matches no column whole", "the columns are t, u1"]),
+        (["u3"], ["no column 'u3'", "the columns t, u1"]),
+        ("v[0-9]", ["'v[0-9]' matches no whole name", "the columns t, u1"]),
         ("u[0-9", ["'u[0-9' is no pattern"]),
         (["note"], ["2 columns are named 'note' (columns 10, 11)", "give each its own name"]),
         ("n.*", ["2 columns are named 'note'"]),
     ],
 )
-def test_a_wrong_choice_is_told(wanted: Any, says: list[str]) -> None:
-    with pytest.raises(SoftkinError) as error:
+def test_a_wrong_choice_is_an_error(wanted: Any, says: list[str]) -> None:
+    with pytest.raises(DataError) as error:
         choose(NAMES, wanted, "commands")
-    for part in ("`commands`", "mend", *says):
+    for part in ("`commands`", "\n  fix: ", *says):
         assert part in str(error.value)
 
 
@@ -96,25 +96,25 @@ def test_good_choices_pass(commands: list[str], coordinates: list[str], dimensio
     [
         (["u1", "u1"], ["x", "y", "z"], 3, ["'u1' is chosen twice"]),
         (["x"], ["x", "y", "z"], 3, ["'x' is chosen twice"]),
-        ([f"u{place}" for place in range(65)], ["x", "y", "z"], 3, ["65 columns, at most 64"]),
+        ([f"u{place}" for place in range(65)], ["x", "y", "z"], 3, ["65 columns, but at most 64"]),
         (["u1"], ["x", "y"], 3, ["2 columns (x, y), but 3 per marker", "dimensions: 2"]),
         (["u1"], ["x1", "y1", "x2", "y2", "x3", "y3"], 3, ["name the axes x, y", "write dimensions: 2"]),
         (["u1"], ["x1", "x2", "y1", "y2", "z1", "z2"], 3, ["x1, x2, y1 would be one", "[x1, y1, z1, x2, y2, z2]"]),
         (["u1"], ["x1", "x2", "y1", "y2"], 2, ["x1, x2 would be one marker", "[x1, y1, x2, y2]"]),
     ],
 )
-def test_columns_that_are_no_markers_are_told(
+def test_columns_that_are_no_markers_are_an_error(
     commands: list[str], coordinates: list[str], dimensions: int, says: list[str]
 ) -> None:
-    with pytest.raises(SoftkinError) as error:
+    with pytest.raises(DataError) as error:
         check(commands, coordinates, dimensions, {})
-    for part in ("mend", *says):
+    for part in ("\n  fix: ", *says):
         assert part in str(error.value)
 
 
 @pytest.mark.parametrize("key", ["n_commands", "n_markers"])
-def test_another_number_than_registered_is_told(key: str) -> None:
-    with pytest.raises(SoftkinError, match=f"`{key}` is 7, but the entry's columns make it 1"):
+def test_another_number_than_registered_is_an_error(key: str) -> None:
+    with pytest.raises(DataError, match=f"`{key}`: 7, but the columns of the entry make it 1"):
         check(["u"], ["x", "y", "z"], 3, {key: 7})
 
 

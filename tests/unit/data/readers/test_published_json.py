@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from softkin.core.errors import SoftkinError
+from softkin.core.errors import DataError
 from softkin.core.samples import SUBSETS, Samples
 from softkin.data.readers.published_json import read
 from tests.conftest import four_subsets, published_json
@@ -46,18 +46,18 @@ def spoil(change: Callable[[dict[str, Any]], Any]) -> dict[str, Any]:
         (lambda c: c["val"]["motor_control"][0].__setitem__(0, float("inf")), ["'val'", "row 0", "not finite"]),
     ],
 )
-def test_a_bad_file_is_told_by_dataset_subset_field_and_row(
+def test_a_bad_file_is_named_with_dataset_subset_field_and_row(
     tmp_path: Path, change: Callable[[dict[str, Any]], Any], says: list[str]
 ) -> None:
-    with pytest.raises(SoftkinError) as error:
+    with pytest.raises(DataError) as error:
         parse(tmp_path / "raw.json", spoil(change))
-    for part in ("finger", "mend", *says):
+    for part in ("finger", "\n  fix: ", *says):
         assert part in str(error.value)
 
 
 @pytest.mark.parametrize("content", ["", "{", "[]", '"text"', "\x00"])
-def test_what_is_no_json_object_is_told(tmp_path: Path, content: str) -> None:
-    with pytest.raises(SoftkinError, match="finger"):
+def test_what_is_no_json_object_is_an_error(tmp_path: Path, content: str) -> None:
+    with pytest.raises(DataError, match="finger"):
         parse(tmp_path / "raw.json", content)
 
 

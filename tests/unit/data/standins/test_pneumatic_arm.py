@@ -53,6 +53,6 @@ def test_the_base_marker_never_moves_to_the_last_bit() -> None:
 
 def test_more_elements_change_nothing_that_matters(monkeypatch: pytest.MonkeyPatch) -> None:
     extremes = [(u1, u2, u3) for u1 in (LOWER[0], UPPER[0]) for u2 in (-0.1, 0.1) for u3 in (-0.1, -0.08)]
-    found = markers(*extremes)
+    coarse = markers(*extremes)
     monkeypatch.setattr("softkin.data.standins.pneumatic_arm.N_ELEMENTS", 96)
-    np.testing.assert_allclose(found, markers(*extremes), atol=1e-3)
+    np.testing.assert_allclose(coarse, markers(*extremes), atol=1e-3)

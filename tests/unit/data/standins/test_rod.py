@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
 
-from softkin.core.errors import SoftkinError
+from softkin.core.errors import ConfigError
 from softkin.data.standins.rod import STANDARD_GRAVITY, Rod, Shape, disc, loads, section
 
 ROD = Rod(100.0, *section(1.0, *disc(5.0)), tendons=((4.0, 0.0), (-4.0, 0.0)))
@@ -39,16 +40,16 @@ def test_scaling_leaves_the_sliding() -> None:
 
 
 @pytest.mark.parametrize(
-    ("given", "told"),
+    ("load", "says"),
     [
         ({"tip_force": (0.0, math.nan, 0.0)}, r"field 'tip_force', row 0: not finite"),
         ({"tensions": np.array([[1.0, 0.0], [0.0, -1.0]])}, r"field 'tensions', row 1: a tendon cannot push"),
         ({"pressures": np.ones((2, 3))}, r"field 'pressures': shape \(2, 3\) does not fit \(2, 0\)"),
     ],
 )
-def test_bad_loads_are_named(given: dict[str, np.ndarray], told: str) -> None:
-    with pytest.raises(SoftkinError, match=told):
-        loads(ROD, 2, **given)  # type: ignore[arg-type]
+def test_bad_loads_are_named(load: dict[str, Any], says: str) -> None:
+    with pytest.raises(ConfigError, match=says):
+        loads(ROD, 2, **load)
 
 
 def test_points_lie_beside_the_centreline() -> None:

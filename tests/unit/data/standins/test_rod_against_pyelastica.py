@@ -67,6 +67,6 @@ def test_pyelastica_comes_to_rest_in_the_same_shape() -> None:
         return np.asarray(moving.position_collection[:, -1] * 1e3)
 
     coarse, middle, fine = (at_rest(n_elements) for n_elements in (10, 20, 40))
-    theirs = (4 * (2 * fine - middle) - (2 * middle - coarse)) / 3
-    assert np.linalg.norm(theirs - [0, 0, length]) > 20  # mm: it does bend
-    np.testing.assert_allclose(ours, theirs, atol=0.05)
+    expected = (4 * (2 * fine - middle) - (2 * middle - coarse)) / 3
+    assert np.linalg.norm(expected - [0, 0, length]) > 20  # mm: it does bend
+    np.testing.assert_allclose(ours, expected, atol=0.05)

@@ -7,7 +7,7 @@ import pytest
 import yaml
 from scipy.stats import ks_2samp
 
-from softkin.core.errors import SoftkinError
+from softkin.core.errors import ConfigError
 from softkin.core.samples import EXTRAPOLATION, SUBSETS, Samples, informative_coordinates
 from softkin.data.standins import STANDINS
 from softkin.data.standins.simulating import simulate, split, subset_sizes
@@ -104,7 +104,7 @@ def test_a_total_is_enough() -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "n_rows", "told"),
+    ("name", "n_rows", "says"),
     [
         ("snake", 100, "stand-in 'snake': unknown[\\s\\S]*pneumatic_arm"),
         ("tendon_finger", {"train": 5}, "every subset needs a row"),
@@ -112,6 +112,6 @@ def test_a_total_is_enough() -> None:
         ("tendon_finger", 4, "every subset needs a row[\\s\\S]*mend"),
     ],
 )
-def test_what_cannot_be_simulated_is_told(name: str, n_rows: int | dict[str, int], told: str) -> None:
-    with pytest.raises(SoftkinError, match=told):
+def test_what_cannot_be_simulated_is_an_error(name: str, n_rows: int | dict[str, int], says: str) -> None:
+    with pytest.raises(ConfigError, match=says):
         simulate(name, n_rows=n_rows, seed=0)

@@ -33,9 +33,9 @@ def test_antagonists_mirror_each_other() -> None:
 
 
 def test_unloaded_it_stands_straight() -> None:
-    found = tips((0.0, 0.0))[0]
-    assert found[:2].tolist() == [0.0, 0.0]
-    assert 119.5 < found[2] < ROD.length
+    tip = tips((0.0, 0.0))[0]
+    assert tip[:2].tolist() == [0.0, 0.0]
+    assert 119.5 < tip[2] < ROD.length
 
 
 def test_play_follows_with_a_lag() -> None:

@@ -28,14 +28,14 @@ def test_the_posterior_is_scikit_learns_and_the_likelihood_as_good() -> None:
 
 
 def test_the_search_does_not_stop_where_it_started() -> None:
-    """The first unscaled L-BFGS step lands on the bounds, where the kernel is singular; the search then gave up."""
+    """Unscaled, the first step of L-BFGS lands on the bounds, where the kernel is singular: the search ends."""
     x, y = standardised(150)
     model = BoundedGaussianProcess("rbf", learning_rows=150).fit(x, y)
     start = model._kernel(2).theta
     assert np.abs(model.posterior_.kernel_.theta - start).min() > 0.01
 
 
-def test_the_papers_kernel_is_a_linear_model_in_disguise() -> None:
+def test_the_papers_kernel_is_a_linear_model() -> None:
     x, y = standardised(200)
     ours = BoundedGaussianProcess("none", "paper_linear", learning_rows=200, max_iter=200).fit(x, y)
     np.testing.assert_allclose(ours.predict(x), LinearRegression().fit(x, y).predict(x), atol=0.06)
@@ -80,8 +80,8 @@ def test_the_standard_deviation_holds_its_share_of_new_rows_in_every_coordinate(
     model = BoundedGaussianProcess(max_iter=30).fit(X[:300], y[:300])
     std = model.predict_std(X[300:])
     assert std.shape == (200, 2)
-    inside = np.abs(y[300:] - model.predict(X[300:])) <= 1.645 * std
-    assert inside.mean(axis=0) == pytest.approx([0.9, 0.9], abs=0.06)
+    held = np.abs(y[300:] - model.predict(X[300:])) <= 1.645 * std
+    assert held.mean(axis=0) == pytest.approx([0.9, 0.9], abs=0.06)
     scaled = BoundedGaussianProcess(max_iter=30).fit(X[:300], y[:300] * [1.0, 10.0])
     assert scaled.predict_std(X[300:])[:, 1].mean() > 5 * scaled.predict_std(X[300:])[:, 0].mean()
 

@@ -1,4 +1,4 @@
-"""A trend, and a regressor on what it leaves."""
+"""A trend, and a regressor on its residuals."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from sklearn.ensemble import GradientBoostingRegressor, RandomForestRegressor
 from sklearn.linear_model import LinearRegression
 from sklearn.multioutput import MultiOutputRegressor
 
-from softkin.core.errors import SoftkinError
+from softkin.core.errors import ConfigError
 from softkin.core.samples import Array, Samples
 from softkin.models.estimators.detrended import Detrended, detrended, spread_around
 from softkin.models.quantile import QUANTILE_MODELS
@@ -36,9 +36,10 @@ def test_without_a_trend_it_is_the_regressor_itself() -> None:
         assert detrended(forest, params).get_params() == forest({"n_estimators": 5}).get_params()
 
 
-def test_an_unknown_trend_is_told() -> None:
-    with pytest.raises(SoftkinError, match="trend 'cubic' is none of none, linear, quadratic"):
+def test_an_unknown_trend_is_an_error_that_names_the_known_ones() -> None:
+    with pytest.raises(ConfigError, match="trend: 'cubic' is no trend") as caught:
         detrended(forest, {"trend": "cubic"})
+    assert caught.value.fix == "set one of none, linear, quadratic"
 
 
 def test_scaling_of_targets_changes_nothing() -> None:

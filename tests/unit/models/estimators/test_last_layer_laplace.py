@@ -33,9 +33,9 @@ def test_it_is_the_posterior_of_a_ridge_regression_on_the_last_hidden_layer(acti
     inverse = np.linalg.inv(precision)
     freedom = 80 - np.trace(inverse @ design.T @ design)
     expected = np.sqrt((residuals**2).sum() / freedom * (1 + np.diag(design @ inverse @ design.T)))
-    found = last_layer_laplace(network, rows, rows.commands)
-    assert found.shape == (80, n_outputs)
-    np.testing.assert_allclose(found[:, 0], expected, rtol=1e-5)
+    std = last_layer_laplace(network, rows, rows.commands)
+    assert std.shape == (80, n_outputs)
+    np.testing.assert_allclose(std[:, 0], expected, rtol=1e-5)
     np.testing.assert_array_equal(network.predict(rows.commands), before)  # the network is left as it was
 
 
@@ -45,9 +45,9 @@ def test_it_is_surer_where_it_was_trained() -> None:
     rows = Samples(commands, np.sin(3 * commands) + 0.05 * rng.standard_normal((200, 1)))
     network = MLPRegressor(hidden_layer_sizes=(16,), activation="tanh", solver="lbfgs", max_iter=5000, random_state=0)
     network.fit(rows.commands, rows.positions.ravel())
-    inside, outside = last_layer_laplace(network, rows, np.array([[0.0], [2.0]]))[:, 0]
-    assert inside == pytest.approx(0.05, rel=0.4)
-    assert outside > 2 * inside
+    near, far = last_layer_laplace(network, rows, np.array([[0.0], [2.0]]))[:, 0]
+    assert near == pytest.approx(0.05, rel=0.4)
+    assert far > 2 * near
 
 
 def test_a_dead_neuron_does_not_stop_it() -> None:

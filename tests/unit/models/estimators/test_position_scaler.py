@@ -32,5 +32,5 @@ def test_a_robot_that_never_moves_is_still_handed_to_the_model() -> None:
 def test_a_spread_gets_its_unit_back_and_none_where_nothing_moves() -> None:
     positions = np.column_stack([np.full(5, 7.0), np.arange(5.0), 10 * np.arange(5.0)])
     scaler = PositionScaler().fit(positions)
-    found = scaler.inverse_spread(np.zeros((1, 2)), np.array([[1.0, 0.5]]))
-    np.testing.assert_allclose(found, [[0.0, np.arange(5.0).std(), 5 * np.arange(5.0).std()]])
+    spread = scaler.inverse_spread(np.zeros((1, 2)), np.array([[1.0, 0.5]]))
+    np.testing.assert_allclose(spread, [[0.0, np.arange(5.0).std(), 5 * np.arange(5.0).std()]])

@@ -15,6 +15,7 @@ from softkin.reporting.figures import CAMPAIGN_FIGURES, FIGURES
 from softkin.reporting.figures.drawing import DPI, draw
 from softkin.reporting.figures.spec import DatasetResults
 from softkin.reporting.figures.style import PAGE
+from tests.unit.reporting.figures.conftest import RUNS
 
 
 def test_every_figure_is_drawn_with_the_numbers_behind_it(results: DatasetResults, tmp_path: Path) -> None:
@@ -33,7 +34,7 @@ def test_every_figure_is_drawn_with_the_numbers_behind_it(results: DatasetResult
         assert len(pd.read_csv(tmp_path / "figures" / f"{name}.csv")) >= 3
 
 
-def test_a_figure_of_what_was_not_run_is_left_out_and_said_so(
+def test_a_figure_of_what_was_not_run_is_left_out_and_logged(
     results: DatasetResults, tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
     caplog.set_level("INFO", logger="softkin")
@@ -42,7 +43,7 @@ def test_a_figure_of_what_was_not_run_is_left_out_and_said_so(
         stored[stored["model"] == "gp"].to_parquet(path)
         assert method
     draw({"intervals_paper": FIGURES["intervals_paper"]}, results, tmp_path / "figures")
-    assert "no intervals_paper: nothing of it was run, or too little" in caplog.text
+    assert "no figure intervals_paper: what it shows was not run, or too little of it" in caplog.text
     assert len(pd.read_csv(tmp_path / "figures" / "index.csv")) == 0
 
 
@@ -67,8 +68,8 @@ def test_it_is_registered_under_its_own_name_and_explained(name: str) -> None:
     ("without", "gone"),
     [
         ({"trials": {}}, {"tuning_history", "importance"}),
-        ({"intervals": ["qr", "cqr"], "choice": ["cqr"]}, {"residuals", "robot", "workspace", "intervals_chosen"}),
-        ({"runs": [("gp", "tuned")], "choice": ["scp_spread"]}, {"intervals_paper"}),
+        ({"intervals": ["qr", "cqr"], "choice": ["cqr"]}, {"residuals", "robot", "workspace", "intervals_deployed"}),
+        ({"runs": [RUNS[3]], "choice": ["scp_spread"]}, {"intervals_paper"}),
     ],
 )
 def test_a_smaller_configuration_leaves_out_its_figures_and_no_others(

@@ -1,9 +1,13 @@
-"""Which parameters mattered."""
+"""Importance of parameters."""
 
 from __future__ import annotations
 
-from softkin.reporting.figures.importance import frame
+import numpy as np
+import pandas as pd
+
+from softkin.reporting.figures.importance import frame, plot
 from softkin.reporting.figures.spec import DatasetResults
+from tests.unit.reporting.figures.drawn import bars
 
 
 def test_the_parameter_that_decides_comes_first_and_short_studies_are_left_out(results: DatasetResults) -> None:
@@ -12,4 +16,19 @@ def test_the_parameter_that_decides_comes_first_and_short_studies_are_left_out(r
     assert rows["parameter"].iloc[0] == "rate"
     assert set(rows["parameter"]) == {"rate", "kind", "depth"}  # one never changed
     assert rows["importance"].iloc[0] > 5 * rows["importance"].iloc[1]
-    assert set(rows["n_trials"]) == {30}  # those that were cut short among them
+    assert set(rows["n_trials"]) == {30}  # pruned ones among them
+
+
+def test_bars_are_as_long_as_the_importance(results: DatasetResults) -> None:
+    rows = frame(results)
+    axes = plot(rows, results).axes[0]
+    np.testing.assert_allclose([right for _, right in bars(axes)], rows["importance"])
+    assert [text.get_text() for text in axes.get_yticklabels()] == rows["parameter"].tolist()
+
+
+def test_trials_that_are_all_alike_say_nothing(results: DatasetResults) -> None:
+    for path in results.trials.values():
+        study = pd.read_csv(path)
+        study[["param_kind", "param_depth", "param_rate"]] = 1.0
+        study.to_csv(path, index=False)
+    assert frame(results).empty

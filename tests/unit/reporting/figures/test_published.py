@@ -1,4 +1,4 @@
-"""Published against ours, cell by cell."""
+"""The paper's tables, reproduced: a heat map."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The same look for the same model, whatever is configured."""
+"""One style for all figures."""
 
 from __future__ import annotations
 
@@ -9,17 +9,18 @@ import pytest
 
 from softkin.models import MODELS
 from softkin.models.quantile import QUANTILE_MODELS
-from softkin.reporting.figures.style import LOOKS, MODEL_COLOURS, logarithmic, panels
+from softkin.reporting.figures.spec import DatasetResults
+from softkin.reporting.figures.style import LOOKS, MODEL_COLOURS, heading, logarithmic, model_samples, panels
 
 
-def test_every_model_and_learner_has_a_look_of_its_own() -> None:
+def test_every_model_and_quantile_regressor_has_a_look_of_its_own() -> None:
     assert set(LOOKS) >= {*MODELS, *QUANTILE_MODELS}
     assert len(set(LOOKS.values())) == len(LOOKS)
     assert list(LOOKS)[: len(MODELS)] == list(MODELS)
 
 
 def test_colours_of_models_can_be_told_apart_without_red_or_green() -> None:
-    """Vienot et al. (1999): what a person without red (protan) or green cones (deutan) sees of them."""
+    """Vienot et al. (1999): colours as seen without red (protan) or green cones (deutan)."""
     from matplotlib.colors import to_rgb
 
     seen_as = {
@@ -42,3 +43,16 @@ def test_logarithmic_axes_have_numbers(values: list[float], shown: set[str]) -> 
     labels = {label.get_text() for label in axes.get_yticklabels()}
     assert shown <= labels
     assert len(labels) <= 12
+
+
+def test_the_heading_has_the_notes_of_the_subsets_that_are_shown(results: DatasetResults) -> None:
+    figure, _ = panels(1, 1, 7.0, 3.0)
+    heading(figure, results, "a title")
+    assert figure.get_suptitle() == "ARM: a title\ntest: made up"
+    heading(figure, results, "a title", ["train"])
+    assert figure.get_suptitle() == "ARM: a title"
+
+
+def test_models_have_their_look_and_title_in_the_legend(results: DatasetResults) -> None:
+    [entry] = model_samples(["gp"], results)
+    assert (entry.get_label(), entry.get_color(), entry.get_marker()) == ("Gaussian process", *LOOKS["gp"])

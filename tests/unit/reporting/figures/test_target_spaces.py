@@ -1,12 +1,13 @@
-"""What curvature coordinates are worth."""
+"""Target spaces, as a figure."""
 
 from __future__ import annotations
 
 from softkin.reporting.figures.spec import DatasetResults
 from softkin.reporting.figures.target_spaces import frame, plot
+from tests.unit.reporting.figures.drawn import marks, xs
 
 
-def test_each_model_has_its_errors_outside_in_either_space(results: DatasetResults) -> None:
+def test_each_model_has_its_errors_on_extrapolation_in_either_space(results: DatasetResults) -> None:
     rows = frame(results).set_index(["model", "target_space"])
     assert rows["rmse_mm"].to_dict() == {
         ("gb", "cartesian"): 6.0,
@@ -19,8 +20,7 @@ def test_each_model_has_its_errors_outside_in_either_space(results: DatasetResul
 
 def test_an_open_mark_is_a_model_of_positions_and_a_ring_the_chosen_space(results: DatasetResults) -> None:
     panel = plot(frame(results), results).axes[0]
-    marks = [line for line in panel.lines if len(line.get_xdata()) == 1]
-    rings = {float(line.get_xdata()[0]) for line in marks if line.get_markersize() == 11}
-    opened = {float(line.get_xdata()[0]) for line in marks if line.get_markerfacecolor() == "white"}
+    rings = {xs(mark)[0] for mark in marks(panel) if mark.get_markersize() == 11}
+    opened = {xs(mark)[0] for mark in marks(panel) if mark.get_markerfacecolor() == "white"}
     assert (rings, opened) == ({6.0, 3.0}, {6.0})
     assert [text.get_text() for text in panel.get_yticklabels()] == ["Gaussian process", "Gradient boosting"]

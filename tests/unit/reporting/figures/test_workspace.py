@@ -1,4 +1,4 @@
-"""Where in command space the chosen model is bad."""
+"""Map of command space."""
 
 from __future__ import annotations
 

@@ -1,3 +1,5 @@
+"""Workspace predictions."""
+
 from __future__ import annotations
 
 import dataclasses
@@ -9,17 +11,24 @@ from softkin.reporting.figures.spec import DatasetResults
 from softkin.reporting.figures.workspace_predictions import N_BOXES, frame, plot
 
 
-def test_the_papers_run_and_the_chosen_one_on_both_sides_of_the_edge(results: DatasetResults) -> None:
+def test_the_papers_run_and_the_deployed_one_in_domain_and_in_extrapolation(results: DatasetResults) -> None:
     shown = frame(results)
     assert set(zip(shown["model"], shown["preset"], strict=True)) == {("gb", "paper"), ("gp", "tuned")}
     assert set(shown["subset"]) == {"train", "test", "extrapolation"}
-    mine = shown[(shown["model"] == "gp") & (shown["subset"] == "extrapolation")]
+    rows = shown[(shown["model"] == "gp") & (shown["subset"] == "extrapolation")]
     true = read_subset(results.table, "extrapolation").positions
     names = [f"m{place // 3 + 1}_{'xyz'[place % 3]}" for place in range(true.shape[1])]
     for n in (1, 2):
-        place = names.index(mine[f"axis_{n}"].iloc[0])
-        np.testing.assert_allclose(mine[f"true_{n}"], true[:, place])
-    assert mine["is_boxed"].sum() == min(N_BOXES, len(mine))
+        place = names.index(rows[f"axis_{n}"].iloc[0])
+        np.testing.assert_allclose(rows[f"true_{n}"], true[:, place])
+    assert rows["is_boxed"].sum() == min(N_BOXES, len(rows))
+
+
+def test_the_plane_is_that_of_most_spread_of_the_marker_that_moves_furthest(
+    results_of_many_markers: DatasetResults,
+) -> None:
+    shown = frame(results_of_many_markers)
+    assert (shown["axis_1"].unique().tolist(), shown["axis_2"].unique().tolist()) == (["m3_x"], ["m3_y"])
 
 
 def test_rectangles_are_the_intervals_of_some_rows_and_none_where_there_are_none(results: DatasetResults) -> None:

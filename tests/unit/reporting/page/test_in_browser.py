@@ -80,7 +80,7 @@ def test_headings_sort_numbers_as_numbers_both_ways(opened: Any) -> None:
         assert values == sorted(values, reverse=reverse)
     tab.locator("#points-table th").nth(2).get_by_role("button").press("Enter")
     assert heading.get_attribute("aria-sort") is None
-    names = [text.removesuffix("chosen").strip() for text in column(tab, "points", 2)]
+    names = [text.removesuffix("deployed").strip() for text in column(tab, "points", 2)]
     assert names == sorted(names)
 
 
@@ -90,7 +90,13 @@ def test_what_was_not_measured_goes_last_either_way(opened: Any) -> None:
     for _ in range(2):
         heading.click()
         shown = column(tab, "intervals", 9)
-        assert shown == ["2.00"] * 48 + ["–"] * 16
+        assert shown == ["2.00"] * 64 + ["–"] * 16
+
+
+def test_texts_of_numbers_have_their_value(opened: Any) -> None:
+    texts = ["2.89", "91.4 %", "<0.000000001", "-0.5", "infinite"]
+    values = opened().evaluate("texts => texts.map(text => valueOf(text) === Infinity ? 'most' : valueOf(text))", texts)
+    assert values == [2.89, 91.4, 1e-9, -0.5, "most"]
 
 
 def test_menus_filter_together_and_the_count_follows(opened: Any) -> None:
@@ -116,7 +122,7 @@ def test_a_long_table_shows_the_rest_when_asked(opened: Any) -> None:
     assert len(column(tab, "intervals", 0)) == 100
     more = tab.locator("#intervals-table").get_by_role("button", name="Show all")
     more.click()
-    assert len(column(tab, "intervals", 0)) == 256
+    assert len(column(tab, "intervals", 0)) == 320
     assert more.is_hidden()
 
 
@@ -132,6 +138,41 @@ def test_only_tables_scroll_sideways(opened: Any, width: int) -> None:
         width,
     )
     assert beyond == []
+
+
+def hint(tab: Any, grid: str) -> Any:
+    return tab.locator(f"#{grid}-table").get_by_text("Scroll sideways")
+
+
+@pytest.mark.parametrize("width", [390, 1400, 2600])
+def test_a_table_says_that_it_scrolls_exactly_where_it_does(opened: Any, width: int) -> None:
+    tab = opened(viewport={"width": width, "height": 900})
+    tab.wait_for_timeout(100)
+    scrolls = set()
+    for grid in ("points", "choice", "intervals", "published-intervals"):
+        box = tab.locator(f"#{grid}-table .scroll")
+        is_wider = box.evaluate("box => box.scrollWidth > box.clientWidth + 1")
+        assert hint(tab, grid).is_visible() == is_wider, grid
+        scrolls.add(is_wider)
+    assert True in scrolls or width > 390
+
+
+def test_the_hint_of_a_folded_picture_comes_when_it_is_opened(opened: Any) -> None:
+    tab = opened(viewport=PHONE)
+    album = tab.locator("details.album").nth(1)
+    assert album.get_by_text("Scroll sideways").first.is_hidden()
+    album.locator("summary").click()
+    album.get_by_text("Scroll sideways").first.wait_for(state="visible")
+
+
+def test_the_csv_of_a_table_can_be_downloaded(opened: Any) -> None:
+    tab = opened()
+    with tab.expect_download() as download:
+        tab.locator("#slowest-table").get_by_role("link", name="slowest.csv").click()
+    assert download.value.suggested_filename == "slowest.csv"
+    assert Path(download.value.path()).read_text(encoding="utf-8").startswith("Job,Robot,Model")
+    link = tab.locator("#points-table").get_by_role("link", name="tables/point_metrics.csv")
+    assert link.evaluate("a => a.href").endswith("/results/tables/point_metrics.csv")
 
 
 def test_headings_stay_in_sight_while_a_table_scrolls(opened: Any) -> None:

@@ -35,3 +35,16 @@ def test_duration_adds_up(jobs: list[Job]) -> None:
     assert text.startswith(
         "7 min 45 s in 30 measured jobs, added up (3 min 52 s of CPU), most of it in refit (4 min 0 s)"
     )
+
+
+def test_a_job_of_all_models_without_records(jobs: list[Job]) -> None:
+    whole = Job("score_intervals", "arm", "", "", jobs[0].benchmark)
+    (row,) = slowest_grid(measured([whole]), {}).rows
+    assert [cell.text for cell in row] == ["score_intervals", "arm", "all", "all", "1.00", "–", "100", "–", "–", "–"]
+
+
+def test_seconds_of_several_fits_add_up(jobs: list[Job], tmp_path: Path) -> None:
+    for name, seconds in (("one.json", 1.5), ("two.json", 2.0)):
+        write_json(tmp_path / name, {"fit_seconds": seconds})
+    fit = Job("fit_tuned", "arm", "gp", "", jobs[0].benchmark, (tmp_path / "one.json", tmp_path / "two.json"))
+    assert measured([fit])["fit_seconds"].tolist() == [3.5]

@@ -6,8 +6,9 @@ from pathlib import Path
 import yaml
 
 from softkin import __version__
-from softkin.reporting.page.provenance import citations, commit, settings, versions
+from softkin.reporting.page.provenance import citations, commit, data_grid, settings, versions, what_was_run
 from tests.conftest import HOUSE
+from tests.unit.reporting.page.frames import NO_MARKS, texts
 
 
 def git(folder: Path, *arguments: str) -> str:
@@ -33,10 +34,10 @@ def test_commit_and_whether_it_is_all(tmp_path: Path) -> None:
 
 
 def test_versions_are_those_installed() -> None:
-    found = versions()
-    assert found["softkin"] == __version__
-    assert {"Python", "scikit-learn", "optuna", "mapie"} <= set(found)
-    assert "pytest" not in found
+    installed = versions()
+    assert installed["softkin"] == __version__
+    assert {"Python", "scikit-learn", "optuna", "mapie"} <= set(installed)
+    assert "pytest" not in installed
 
 
 def test_settings_can_be_run_again_and_hold_nothing_private() -> None:
@@ -46,7 +47,7 @@ def test_settings_can_be_run_again_and_hold_nothing_private() -> None:
     assert "models: [lr, gp]" in text
 
 
-def test_citations_of_the_house_and_of_each_dataset_once() -> None:
+def test_citations_of_softkin_and_of_each_dataset_once() -> None:
     sources = {"one": {"citation": "Someone (2023).\n"}, "two": {"citation": "Someone (2023)."}}
     cited = citations(HOUSE / "CITATION.cff", sources)
     assert cited[-1] == "Someone (2023)."
@@ -60,3 +61,25 @@ def test_a_robot_that_asks_for_no_citation_has_none(tmp_path: Path) -> None:
     cff = tmp_path / "CITATION.cff"
     cff.write_text("title: softkin\nauthors: [{name: The authors}]\n")
     assert citations(cff, {"my_arm": {"title": "My arm"}}) == ["The authors. softkin."]
+
+
+def test_data_are_identified_by_the_hash_of_their_file() -> None:
+    rows = {"train": 704, "validation": 88, "test": 89, "extrapolation": 100}
+    description = {"title": "ARM", "n_commands": 2, "n_markers": 3, "rows": rows, "sha256": "ab" * 32}
+    sources = {"arm": {"file": "arm.json"}}
+    for constant, text in (([], "none"), (["m1_x", "m1_y"], "m1_x, m1_y")):
+        grid = data_grid({"arm": description | {"constant_coordinates": constant}}, sources, NO_MARKS)
+        (row,) = grid.rows
+        assert texts(row) == ["arm", "ARM", "2", "3", "704", "88", "89", "100", text, "arm.json", "ab" * 32]
+    assert len(grid.columns) == len(row)
+
+
+def test_what_was_run_has_a_value_for_each_name_of_the_template(tmp_path: Path) -> None:
+    cff = tmp_path / "CITATION.cff"
+    cff.write_text("title: softkin\nauthors: [{name: The authors}]\n")
+    run = what_was_run({"campaign": "nightly", "seed": 3}, cff, {})
+    assert (run["campaign"], run["seed"], run["commit"]) == ("nightly", 3, None)
+    assert run["citations"] == ["The authors. softkin."]
+    assert run["written"].endswith("UTC")
+    template = (HOUSE / "src" / "softkin" / "reporting" / "page" / "templates" / "page.html.j2").read_text()
+    assert all(name in template for name in run)

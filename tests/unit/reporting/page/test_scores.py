@@ -1,35 +1,56 @@
 from __future__ import annotations
 
-import pytest
+from softkin.reporting.page.choices import read_choices
+from softkin.reporting.page.scores import choice_grid, interval_grid, point_grid
+from tests.unit.reporting.page.frames import LEVELS, MODELS, NO_MARKS, PRESETS, ROBOTS, TITLES, frames, kinds, texts
 
-from softkin.reporting.page.scores import interval_rows
-from tests.unit.reporting.page.conftest import interval_metrics
-
-
-def test_a_row_holds_mean_joint_and_promise() -> None:
-    rows = interval_rows(interval_metrics())
-    keys = ["dataset", "subset", "model", "preset", "interval_method", "confidence_level"]
-    assert not rows.duplicated(keys).any()
-    assert len(rows) == len(interval_metrics()[keys].drop_duplicates())
-    by_run = rows.set_index(["subset", "interval_method", "confidence_level"]).sort_index()
-    conformal = by_run.loc[("test", "cps", 0.9)].iloc[0]
-    assert (conformal["coverage"], conformal["joint_coverage"]) == (0.9, 0.7)
-    assert (conformal["guarantee"], conformal["as_promised"]) == ("marginal", "1 of 2")
-    region = by_run.loc[("test", "joint_box", 0.9)].iloc[0]
-    assert (region["guarantee"], region["as_promised"]) == ("joint", "yes")
+CHOICES = read_choices(frames())
 
 
-@pytest.mark.parametrize("method", ["cps", "joint_box"])
-def test_outside_nothing_is_promised(method: str) -> None:
-    rows = interval_rows(interval_metrics())
-    outside = rows[(rows["subset"] == "extrapolation") & (rows["interval_method"] == method)]
-    assert set(outside["guarantee"]) == {"no guarantee"}
-    assert set(outside["as_promised"]) == {"–"}
+def test_every_run_has_its_errors_and_the_deployed_one_is_marked() -> None:
+    table = frames()["point_metrics"]
+    grid = point_grid(table, TITLES, NO_MARKS, CHOICES)
+    assert len(grid.rows) == len(table)
+    assert texts(grid.rows[2]) == [
+        *("arm", "test", "Linear regression", "paper", *["0.0100"] * 5, "0.0100", "0.100", "2.00"),
+    ]
+    marked = {(row[0].text, row[2].text, row[3].text) for row in grid.rows if kinds(row[2]) == ["deployed"]}
+    assert marked == {(robot, "Gaussian process", "tuned") for robot in ROBOTS}
 
 
-def test_a_region_off_its_band_breaks_its_promise() -> None:
-    metrics = interval_metrics()
-    metrics.loc[metrics["coordinate"] == "joint", "coverage"] = 0.9
-    rows = interval_rows(metrics)
-    regions = rows[(rows["interval_method"] == "joint_box") & (rows["subset"] == "test")]
-    assert set(regions["as_promised"]) == {"no"}
+def test_every_number_of_a_table_has_one_format() -> None:
+    """Errors from 1e-4 to 1e4 mm stand in one column: none has an exponent."""
+    grid = point_grid(frames()["point_metrics"], TITLES, NO_MARKS, CHOICES)
+    errors = {row[4].text for row in grid.rows}
+    assert {"0.000100", "1.00", "10000"} <= errors
+    assert not any("e" in text for text in errors)
+
+
+def test_one_row_per_interval_method_and_level() -> None:
+    grid = interval_grid(frames()["interval_metrics"], TITLES, 0.9, NO_MARKS, CHOICES)
+    n_methods = len(TITLES.methods)
+    assert len(grid.rows) == len(ROBOTS) * 2 * len(MODELS) * len(PRESETS) * n_methods * len(LEVELS)
+    level = next(column for column in grid.columns if column.title == "Level")
+    assert (level.filtered, level.preset) == (True, "90 %")
+    row = next(
+        row for row in grid.rows if texts(row)[:6] == ["arm", "test", "System", "Gaussian process", "tuned", "90 %"]
+    )
+    assert kinds(row[2]) == ["chosen", "deployed"]
+    assert texts(row)[6:] == ["90.0 %", "1 of 2", "70.0 %", "2.00", "3.00", "infinite", "marginal"]
+
+
+def test_of_two_robots_one_has_another_interval_deployed_than_chosen() -> None:
+    grid = choice_grid(frames()["interval_choice"], TITLES, NO_MARKS)
+    marked = [(row[0].text, row[1].text, kinds(row[1])) for row in grid.rows]
+    assert marked == [
+        ("arm", "System", ["chosen", "deployed"]),
+        ("arm", "SCP (MAPIE)", []),
+        ("finger", "CQR", ["chosen"]),
+        ("finger", "System", ["deployed"]),
+        ("finger", "SCP (MAPIE)", []),
+    ]
+    (reason,) = grid.remarks
+    assert reason.startswith("finger: Chosen is CQR (Gradient boosting, tuned)")
+    assert texts(grid.rows[0])[2:] == [
+        *("Gaussian process, tuned", "1.00", "90.0 %", "0.000000200", "3.00", "–", "Everywhere", "80.0 %"),
+    ]

@@ -15,7 +15,7 @@ def scores(mean: float, p95: float) -> pd.DataFrame:
     )
 
 
-SURE = pd.DataFrame(
+CHOICE = pd.DataFrame(
     [
         {"dataset": "arm", "model": "gp", "preset": "tuned", "interval_method": method, "confidence_level": 0.9}
         | {
@@ -28,31 +28,48 @@ SURE = pd.DataFrame(
         for method, width in (("cqr", 7.0), ("scp_spread", 2.5))
     ]
 )
-CHOSEN = pd.DataFrame([{"dataset": "arm", "model": "gp", "preset": "tuned", "objective": "both"}])
+SELECTED = pd.DataFrame([{"dataset": "arm", "model": "gp", "preset": "tuned", "objective": "both"}])
 
 
-def test_the_chosen_model_and_its_errors() -> None:
-    text = headline(CHOSEN, scores(0.5, 1.25), SURE, ["tuned preset: 3 of 4"])
+def test_the_deployed_model_and_its_errors() -> None:
+    text = headline(SELECTED, scores(0.5, 1.25), CHOICE, ["tuned preset: 3 of 4"])
     assert "arm gp tuned 0.500 1.25 1.50" in " ".join(text.split())
     assert "tuned preset: 3 of 4" in text
     assert "chosen for commands like those of train and beyond, on `train` alone" in text
-    assert "gross misses" not in text
+    assert "gross errors" not in text
     assert max(map(len, text.splitlines())) <= 90
 
 
 def test_a_mean_set_by_a_few_rows_is_remarked_upon() -> None:
-    assert "arm: a few gross misses set the mean" in headline(CHOSEN, scores(2.0, 1.25), SURE, [])
+    assert "arm: a few gross errors set the mean" in headline(SELECTED, scores(2.0, 1.25), CHOICE, [])
 
 
 def test_without_tuning_there_is_no_choice_to_show() -> None:
-    text = headline(None, scores(1.0, 2.0), SURE, [])
+    text = headline(None, scores(1.0, 2.0), CHOICE, [])
     assert "The model is chosen" not in text
 
 
-def test_the_interval_of_the_calibrated_model_and_what_it_covers() -> None:
-    """Not the chosen one, which a learner of quantiles gives."""
-    text = headline(CHOSEN, scores(0.5, 1.25), SURE, [])
-    assert "arm gp tuned scp_spread 2.50 91.2% 95.0%" in " ".join(text.split())
-    assert "cqr" not in text
-    text = headline(CHOSEN, scores(0.5, 1.25), SURE.assign(deployed=False), [])
-    assert "arm gp tuned cqr 7.00 91.2% 95.0%" in " ".join(text.split())
+def test_the_interval_of_the_calibrated_model_and_its_coverage() -> None:
+    text = " ".join(headline(SELECTED, scores(0.5, 1.25), CHOICE, []).split())
+    assert "90 % intervals of the calibrated models" in text
+    assert "arm gp tuned scp_spread 2.50 91.2 % 95.0 %" in text
+    text = " ".join(headline(SELECTED, scores(0.5, 1.25), CHOICE.assign(deployed=False), []).split())
+    assert "arm gp tuned cqr 7.00 91.2 % 95.0 %" in text
+
+
+def test_a_chosen_method_that_is_not_deployed_is_named() -> None:
+    text = headline(SELECTED, scores(0.5, 1.25), CHOICE, [])
+    assert "arm: chosen is cqr (gp tuned), which surrounds no point model." in text
+    same = CHOICE.assign(chosen=CHOICE["deployed"])
+    assert "chosen is" not in headline(SELECTED, scores(0.5, 1.25), same, [])
+
+
+def test_a_leak_is_named() -> None:
+    assert "arm: LEAK. Its test rows stand in train" in headline(SELECTED, scores(0.5, 1.25), CHOICE, [], ["arm"])
+
+
+def test_tiny_errors_keep_the_columns_apart() -> None:
+    lines = headline(SELECTED, scores(5.38e-7, 9.74e-7), CHOICE, []).splitlines()
+    (line,) = [line for line in lines if line.startswith("  arm") and "0.000000538" in line]
+    assert line.split()[1:] == ["gp", "tuned", "0.000000538", "0.000000974", "0.00000161"]
+    assert max(map(len, lines)) <= 90

@@ -1,21 +1,13 @@
 from __future__ import annotations
 
 import pandas as pd
-import pytest
 
 from softkin.models import MODELS
-from softkin.reporting.tables.paper_layout import comparison_table, format_number, subset_table
+from softkin.reporting.tables.paper_layout import PaperTable, comparison_table, presets_of, subset_table
 from softkin.reporting.tables.published import compare, read_published
 from tests.conftest import HOUSE
 
 NAMES = {name: spec.title for name, spec in MODELS.items()}
-
-
-@pytest.mark.parametrize(
-    ("value", "text"), [(2.8912, "2.89"), (114.73, "115"), (0.0004123, "4.12e-04"), (-6.678, "-6.68"), (0.0, "0.0")]
-)
-def test_three_digits(value: float, text: str) -> None:
-    assert format_number(value) == text
 
 
 def point() -> pd.DataFrame:
@@ -28,9 +20,10 @@ def point() -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def table_5(number: int | None = 5):  # type: ignore[no-untyped-def]
-    cells = compare(read_published(HOUSE / "config" / "published" / "point_metrics.csv"), point(), {})
-    return comparison_table(number, "finger", "FINGER", point(), cells, NAMES, ["Testing: mind the gap & more."])
+def table_5(number: int | None = 5) -> PaperTable:
+    cells = compare(read_published(HOUSE / "resources" / "published" / "point_metrics.csv"), point(), {})
+    notes = ["Testing: mind the gap & more."]
+    return comparison_table(number, "finger", "FINGER", point=point(), cells=cells, model_titles=NAMES, notes=notes)
 
 
 def test_printed_paper_and_tuned_stand_side_by_side_best_in_bold() -> None:
@@ -47,7 +40,7 @@ def test_printed_paper_and_tuned_stand_side_by_side_best_in_bold() -> None:
     assert len({line.count("|") for line in lines if line.startswith("|")}) == 1
 
 
-def test_a_dataset_outside_the_paper_has_no_printed_columns() -> None:
+def test_a_dataset_that_the_paper_does_not_have_has_no_printed_columns() -> None:
     text = table_5(None).markdown()
     assert "printed" not in text
     assert "not in the paper" in text
@@ -65,7 +58,28 @@ def test_latex_is_balanced_and_escaped() -> None:
 
 def test_table_2_shows_our_sizes_beside_the_printed_ones() -> None:
     about = {"dataset": "finger", "title": "FINGER", "n_commands": 2, "n_markers": 1, "rows": {"train": 704, "test": 9}}
-    published = pd.read_csv(HOUSE / "config" / "published" / "subsets.csv")
+    published = pd.read_csv(HOUSE / "resources" / "published" / "subsets.csv")
     text = subset_table([about], published).markdown()
     assert "| train | 704 | 704 | 2 | 3 |" in text
     assert "| test | 9 | 89 | 2 | 3 |" in text
+
+
+def test_a_model_that_the_paper_does_not_have_has_a_dash_for_its_printed_cells() -> None:
+    extra = pd.concat([point(), point().query("model == 'gp'").assign(model="huber", rmse_mm=4.12e-4)])
+    cells = compare(read_published(HOUSE / "resources" / "published" / "point_metrics.csv"), extra, {})
+    table = comparison_table(5, "finger", "FINGER", point=extra, cells=cells, model_titles=NAMES, notes=[])
+    assert table.rows[2][:3] == [NAMES["huber"], "–", "0.000412"]
+    assert (2, 2) in table.bold  # the lowest error of its column
+    assert (2, 1) not in table.bold
+
+
+def test_presets_come_in_their_order() -> None:
+    assert presets_of(point()) == ["paper", "tuned"]
+
+
+def test_what_latex_would_take_for_its_own_is_escaped() -> None:
+    table = PaperTable("R2 & more", ["Method", "50 %"], [["a_b", "<0.000000001"]], {(0, 1)}, [("", 1)], ["#1"])
+    text = table.latex()
+    for part in (r"\caption{$R^2$ \& more}", r"50 \%", r"a\_b", r"\textbf{$<$0.000000001}", r"\#1"):
+        assert part in text
+    assert "emph" not in text  # a group without a heading

@@ -6,7 +6,7 @@ import pytest
 from softkin.reporting.tables.published import compare, compare_columns, read_published, summary, unit, verdict
 from tests.conftest import HOUSE
 
-PUBLISHED = read_published(HOUSE / "config" / "published" / "point_metrics.csv")
+PUBLISHED = read_published(HOUSE / "resources" / "published" / "point_metrics.csv")
 PAPER = {
     ("abaqus", "test", "lr", "rmse_mm"): "2.89",
     ("abaqus", "extrapolation", "gp", "r2"): "0.972",
@@ -94,9 +94,9 @@ def test_where_nothing_printed_was_run_the_tables_are_empty_and_say_so() -> None
     """A robot of one's own, or a stand-in."""
     row = {"dataset": "my_arm", "subset": "test", "model": "lr", "preset": "tuned"}
     metrics = dict.fromkeys(["rmse_mm", "mae_mm", "r2", "mape_percent"], 1.0)
-    mine = pd.DataFrame([row | metrics])
-    cells = compare(PUBLISHED, mine, {})
-    columns = compare_columns(cells, mine)
+    point = pd.DataFrame([row | metrics])
+    cells = compare(PUBLISHED, point, {})
+    columns = compare_columns(cells, point)
     assert len(cells) == len(columns) == 0
     assert "verdict" in columns
     assert summary(cells, columns) == ["nothing was run that the paper has printed"]

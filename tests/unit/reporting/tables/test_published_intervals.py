@@ -4,10 +4,12 @@ import pandas as pd
 import pytest
 
 from softkin.reporting.tables.published_intervals import compare_intervals, read_published_intervals, table_6
+from softkin.reporting.titles import Titles
 from tests.conftest import HOUSE
 
-PUBLISHED = read_published_intervals(HOUSE / "config" / "published" / "interval_metrics.csv")
+PUBLISHED = read_published_intervals(HOUSE / "resources" / "published" / "interval_metrics.csv")
 METHODS = {"qr": "QR", "cqr": "CQR", "scp_mapie": "SCP (M)", "scp_crepes": "SCP (C)"}
+TITLES = Titles({}, METHODS)
 
 
 def metrics() -> pd.DataFrame:
@@ -60,17 +62,17 @@ def test_a_printed_score_below_twice_the_mae_cannot_be_an_average(mae: float, sa
 
 
 def test_table_6_is_laid_out_as_in_the_paper() -> None:
-    text = table_6(compare_intervals(PUBLISHED, metrics(), point(1.0)), {"finger": "FINGER"}, METHODS).markdown()
+    text = table_6(compare_intervals(PUBLISHED, metrics(), point(1.0)), {"finger": "FINGER"}, TITLES).markdown()
     assert "| Metric | QR printed | QR ours | CQR printed" in text
     assert "| Coverage | 0.78 | 0.850 | 0.90 | 0.850 | 0.99 | 0.850 | 0.83 | 0.850 |" in text
 
 
 def test_a_printed_column_may_have_been_another_method_of_its_package() -> None:
     """FINGER's MAPIE column, 0.99 and 2.97 mm, looks like CV+."""
-    given = metrics()
-    plus = given[given["interval_method"] == "scp_mapie"].assign(interval_method="cv_plus", confidence_level=0.95)
+    table = metrics()
+    plus = table[table["interval_method"] == "scp_mapie"].assign(interval_method="cv_plus", confidence_level=0.95)
     plus.loc[plus["coordinate"] == "m1_z", ["coverage", "winkler_mm"]] = [0.99, 2.96]
-    cells = compare_intervals(PUBLISHED, pd.concat([given, plus], ignore_index=True), point(1.0)).set_index(
+    cells = compare_intervals(PUBLISHED, pd.concat([table, plus], ignore_index=True), point(1.0)).set_index(
         ["interval_method", "metric"]
     )
     cell = cells.loc[("scp_mapie", "winkler_mm")]

@@ -7,8 +7,8 @@ const textOf = (row, place) => {
   const cell = row.cells[place];
   return (cell.firstElementChild?.matches("span") ? cell.firstElementChild.textContent : cell.firstChild?.nodeValue ?? "").trim();
 };
-// "91.4 %", "4.75e-06", "infinite"; NaN for a dash, which goes last either way.
-const valueOf = (text) => (text === "infinite" ? Infinity : parseFloat(text));
+// "91.4 %", "0.00475", "<0.000000001", "infinite"; NaN for a dash, which goes last either way.
+const valueOf = (text) => (text === "infinite" ? Infinity : parseFloat(text.replace(/^[<>]/, "")));
 
 function compare(first, second, isNumber, direction) {
   if (!isNumber) return direction * first.localeCompare(second, "en", { numeric: true });
@@ -53,6 +53,18 @@ function enliven(grid) {
   show();
 }
 
+// A box that is narrower than what it holds says that it scrolls.
+function hint(box) {
+  const line = document.createElement("p");
+  line.className = "hint";
+  line.textContent = "Scroll sideways to see all of it →";
+  line.hidden = true;
+  box.after(line);
+  const watcher = new ResizeObserver(() => { line.hidden = box.scrollWidth <= box.clientWidth + 1; });
+  for (const part of [box, ...box.children]) watcher.observe(part);
+}
+
 document.querySelectorAll("[data-grid]").forEach(enliven);
+document.querySelectorAll(".scroll").forEach(hint);
 // Paper has no folds.
 addEventListener("beforeprint", () => document.querySelectorAll("details").forEach((part) => { part.open = true; }));

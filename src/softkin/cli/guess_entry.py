@@ -1,0 +1,133 @@
+"""Guess the entry of config/datasets.yaml that a robot's own table needs: columns, unit and split."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from itertools import combinations
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from softkin.core.errors import DataError
+from softkin.core.samples import Array
+from softkin.data import split
+from softkin.data.readers import table_file
+from softkin.data.readers.columns import axis_of, marker_by_marker, unit_of
+
+#: Words of a column's name, by the kind of column that they say; the first kind that has one of the words counts.
+WORDS = {
+    "subset": "subset split",
+    "group": "group trial run episode sequence session trajectory experiment repetition",
+    "time": "t time timestamp stamp datetime date",
+    "no position": "roll pitch yaw rot rotation angle orientation euler vel velocity acc",
+    "ignored": "index idx id row frame sample n no qx qy qz qw",
+    "command": "u p q cmd command act actuation actuator input pressure chamber tendon cable force tension motor torque"
+    " voltage current servo valve setpoint control",
+}
+#: A workspace wider than this is taken to be in mm: no robot is so many metres wide.
+LARGEST_METRES = 5.0
+
+
+def guess_entry(path: Path, title: str, file: str) -> tuple[dict[str, Any], list[str]]:
+    """The entry that the table at `path` probably needs, and a sentence on each key that was guessed. `file` is the
+    path that the entry names.
+
+    Raises:
+        DataError: the file cannot be read, or its columns do not tell which are positions and commands.
+    """
+    table = table_file.open_table(path)
+    positions, dimensions = _positions(table.names, path)
+    kinds = {name: _kind(name) for name in table.names if name not in positions}
+    commands, reasons = _commands(kinds, table.names, path)
+    values, _ = table.read([table.names.index(name) for name in positions], [])
+    if not len(values):
+        raise DataError("a header, but no row of numbers", where=path, fix="export the file again")
+    unit, why_unit = _unit(positions, values, path)
+    split_options, why_split = _split(table, kinds)
+    entry: dict[str, Any] = {
+        "title": title,
+        "format": "table_file",
+        "file": file,
+        "position_unit": unit,
+        "commands": commands,
+        "positions": positions,
+        "split": split_options,
+    }
+    reasons += [why_unit, why_split]
+    if dimensions == 2:
+        entry["dimensions"] = 2
+        reasons.append("dimensions: positions of two axes only, so a planar robot")
+    left_out = [name for name in table.names if name not in (*commands, *positions, split_options.get("column"))]
+    if left_out:
+        reasons.append(f"left out: {', '.join(left_out)}")
+    return entry, reasons
+
+
+def _kind(name: str) -> str | None:
+    """What a column is by the words of its name, ignored without any; None where no word is known."""
+    plain = re.sub(r"[^a-z]+", " ", re.split(r"[\[(]", name.lower())[0]).split()
+    if not plain:
+        return "ignored"
+    return next((kind for kind, known in WORDS.items() if {*plain, "".join(plain)}.intersection(known.split())), None)
+
+
+def _positions(names: Sequence[str], path: Path) -> tuple[list[str], int]:
+    """Columns of positions, marker by marker, and how many per marker."""
+    named = {name: axis for name in names if (axis := axis_of(name)) and _kind(name) != "no position"}
+    for axes in ("xyz", *combinations("xyz", 2)):
+        complete = [
+            name for name, (rest, _) in named.items() if sorted(a for r, a in named.values() if r == rest) == [*axes]
+        ]
+        if complete:
+            columns = [name for name in complete if _kind(name) != "command"] or complete
+            return marker_by_marker(columns), len(axes)
+    raise DataError(
+        f"no columns look like positions: {', '.join(names[:40])}",
+        where=path,
+        fix="name them m1_x, m1_y, m1_z, m2_x, ..., or write the entry by hand, see config/README.md",
+    )
+
+
+def _commands(kinds: Mapping[str, str | None], names: Sequence[str], path: Path) -> tuple[list[str], list[str]]:
+    """Columns of commands, and what a person must check of them."""
+    commands = [name for name, kind in kinds.items() if kind == "command"]
+    if commands:
+        return commands, []
+    unknown = [name for name, kind in kinds.items() if kind is None]
+    if not unknown:
+        raise DataError(
+            f"no column looks like a command: {', '.join(names[:40])}",
+            where=path,
+            fix="name them u1, u2, ..., or write the entry by hand, see config/README.md",
+        )
+    return unknown, ["commands: all columns that look like nothing else; please check"]
+
+
+def _unit(names: Sequence[str], values: Array, path: Path) -> tuple[str, str]:
+    """The unit of the positions, and why."""
+    units = {unit_of(name) for name in names}
+    if len(units - {None}) > 1:
+        raise DataError(
+            f"positions in different units: {', '.join(names)}", where=path, fix="bring all columns to one unit"
+        )
+    if None not in units:
+        unit = str(units.pop())
+        return unit, f"position_unit: the columns' names say {unit}"
+    extent = np.ptp(values, axis=0).max()
+    unit = "m" if extent <= LARGEST_METRES else "mm"
+    return unit, f"position_unit: guessed from the width of the workspace, {extent:.3g}; please check"
+
+
+def _split(table: table_file.Table, kinds: Mapping[str, str | None]) -> tuple[dict[str, Any], str]:
+    """The options of the split, and why."""
+    by_kind = {kind: name for name, kind in reversed(list(kinds.items()))}
+    if name := by_kind.get("subset"):
+        _, (column,) = table.read([], [table.names.index(name)])
+        if {str(value).strip() for value in column} <= set(split.SPELLINGS):
+            return {"method": "column", "column": name}, f"split: '{name}' names the subsets"
+    for kind in ("group", "time"):
+        if name := by_kind.get(kind):
+            return {"method": kind, "column": name}, f"split: by {kind}, since there is a column '{name}'"
+    return {"method": "random"}, "split: at random, rows of the same command together"

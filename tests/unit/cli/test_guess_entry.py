@@ -1,0 +1,88 @@
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from softkin.cli.guess_entry import LARGEST_METRES, guess_entry
+from softkin.core.errors import DataError
+from softkin.data.readers import table_file
+from tests.unit.cli.tables import SIZE, columns
+
+
+@pytest.mark.parametrize(
+    ("table", "expected"),
+    [
+        (columns("u1", "u2", "x", "y", "z"), {"commands": ["u1", "u2"], "positions": ["x", "y", "z"]}),
+        (columns("p1_bar", "p2_bar", "a_x", "b_x", "a_y", "b_y", "a_z", "b_z"),
+         {"commands": ["p1_bar", "p2_bar"], "positions": ["a_x", "a_y", "a_z", "b_x", "b_y", "b_z"]}),
+        (columns("u1", "u2", "x", "y"), {"positions": ["x", "y"], "dimensions": 2}),
+        (columns("u_x", "u_y", "x", "y"), {"commands": ["u_x", "u_y"], "positions": ["x", "y"], "dimensions": 2}),
+        (columns("u1", "tip_x", "tip_z"), {"positions": ["tip_x", "tip_z"], "dimensions": 2}),
+        (columns("p_x", "p_y", "p_z").assign(left=columns("u1")), {"commands": ["left"]}),
+        (columns("u1", "x", "y", "z", scale=1e-3), {"position_unit": "m"}),
+        (columns("u1", "x", "y", "z"), {"position_unit": "mm", "split": {"method": "random"}}),
+        (columns("u1", "x [cm]", "y [cm]", "z [cm]"), {"position_unit": "cm"}),
+        (columns("u1", "u2", "x", "y", "z").assign(time=np.arange(SIZE) / 50.0),
+         {"split": {"method": "time", "column": "time"}, "commands": ["u1", "u2"]}),
+        (columns("u1", "x", "y", "z").assign(Trial=np.arange(SIZE) // 10, t=1.0),
+         {"split": {"method": "group", "column": "Trial"}}),
+        (columns("u1", "x", "y", "z").assign(subset=["train", "val", "test", "ext"] * (SIZE // 4)),
+         {"split": {"method": "column", "column": "subset"}}),
+        (columns("u1", "x", "y", "z").assign(subset=["left", "right"] * (SIZE // 2)), {"split": {"method": "random"}}),
+        (columns("u1", "x", "y", "z").assign(qx=1.0, yaw=2.0, frame=3, rot_x=1, rot_y=2, rot_z=3),
+         {"commands": ["u1"], "positions": ["x", "y", "z"]}),
+    ],
+)  # fmt: skip
+def test_columns_units_and_split_are_guessed(tmp_path: Path, table: pd.DataFrame, expected: dict[str, Any]) -> None:
+    table.to_csv(tmp_path / "arm.csv", index=False)
+    entry, _ = guess_entry(tmp_path / "arm.csv", "Soft arm", "data/arm.csv")
+    assert {key: entry.get(key) for key in expected} == expected
+    assert (entry["title"], entry["format"], entry["file"]) == ("Soft arm", "table_file", "data/arm.csv")
+
+
+def test_the_entry_reads_the_file_that_it_was_guessed_from(tmp_path: Path) -> None:
+    path = tmp_path / "arm.parquet"
+    columns("p1", "p2", "x", "y").assign(id=np.arange(SIZE)).to_parquet(path, index=False)
+    entry, reasons = guess_entry(path, "Arm", str(path))
+    subsets = table_file.read(path, dataset="arm", source=entry)
+    assert sum(map(len, subsets.values())) == SIZE
+    assert any(reason.startswith("dimensions: ") for reason in reasons)
+    assert "left out: id" in reasons
+
+
+def test_each_guess_has_its_reason(tmp_path: Path) -> None:
+    table = columns("x", "y", "z").assign(left=columns("u1"), right=columns("u1"))
+    table.to_csv(tmp_path / "arm.csv", index=False)
+    entry, reasons = guess_entry(tmp_path / "arm.csv", "Arm", "arm.csv")
+    assert entry["commands"] == ["left", "right"]
+    assert [reason.split(":")[0] for reason in reasons] == ["commands", "position_unit", "split"]
+    assert reasons[0].endswith("please check")
+
+
+@pytest.mark.parametrize(("factor", "unit"), [(0.99, "m"), (1.01, "mm")])
+def test_a_wide_workspace_is_in_mm(tmp_path: Path, factor: float, unit: str) -> None:
+    widths = np.linspace(0.0, factor * LARGEST_METRES, SIZE)
+    columns("u1").assign(x=widths, y=0.1, z=0.2).to_csv(tmp_path / "arm.csv", index=False)
+    assert guess_entry(tmp_path / "arm.csv", "Arm", "arm.csv")[0]["position_unit"] == unit
+
+
+@pytest.mark.parametrize(
+    ("content", "what"),
+    [
+        ("u1,x,y,z\n", "a header, but no row"),
+        ("u1,a,b\n1,2,3\n", "no columns look like positions: u1, a, b"),
+        ("t,x,y,z\n1,2,3,4\n", "no column looks like a command: t, x, y, z"),
+        ("u1,x_m,y_mm,z_mm\n1,2,3,4\n", "positions in different units: x_m, y_mm, z_mm"),
+    ],
+)
+def test_columns_that_tell_nothing_are_an_error(tmp_path: Path, content: str, what: str) -> None:
+    path = tmp_path / "arm.csv"
+    path.write_text(content)
+    with pytest.raises(DataError, match=what) as raised:
+        guess_entry(path, "Arm", "arm.csv")
+    assert raised.value.where == str(path)
+    assert raised.value.fix

@@ -1,0 +1,74 @@
+from __future__ import annotations
+
+import pandas as pd
+import pytest
+
+from softkin.reporting.page.headline import RobotCard, robot_cards
+from tests.unit.reporting.page.frames import NO_MARKS, ROBOTS, TITLES, frames
+
+DESCRIPTIONS = {name: {"title": name.upper()} for name in ROBOTS}
+
+
+def cards(**changed: pd.DataFrame | None) -> dict[str, RobotCard]:
+    tables = {name: frame for name, frame in (frames() | changed).items() if frame is not None}
+    return {card.dataset: card for card in robot_cards(tables, DESCRIPTIONS, TITLES, NO_MARKS)}
+
+
+def errors(mean: float, p95: float) -> pd.DataFrame:
+    """The deployed run's errors on test; ten times as large on extrapolation."""
+    table = frames()["point_metrics"]
+    factor = table["subset"].map({"extrapolation": 10.0}).fillna(1.0)
+    return table.assign(euclidean_mean_mm=mean * factor, euclidean_p95_mm=p95 * factor)
+
+
+def test_a_card_says_the_deployed_models_errors() -> None:
+    card = cards(point_metrics=errors(0.5, 1.25))["arm"]
+    assert card.title == "ARM"
+    assert card.errors
+    assert (card.errors.model, card.errors.mean, card.errors.remark) == ("Gaussian process, tuned", "0.500 mm", "")
+    assert [mark.kind for mark in card.errors.marks] == ["deployed"]
+    assert card.errors.facts == [
+        ("95 % of test cases below", "1.25 mm"),
+        ("mean error, extrapolation", "5.00 mm"),
+        ("runner-up", "Linear regression, 1.25 times the score"),
+    ]
+
+
+def test_a_mean_above_the_95th_percentile_is_remarked_upon() -> None:
+    card = cards(point_metrics=errors(2.0, 1.25))["arm"]
+    assert card.errors
+    assert "gross errors set the mean" in card.errors.remark
+
+
+@pytest.mark.parametrize("runner_up", ["", float("nan")])
+def test_a_pool_of_one_model_has_no_runner_up(runner_up: object) -> None:
+    card = cards(selection=frames()["selection"].assign(runner_up=runner_up))["arm"]
+    assert card.errors
+    assert "runner-up" not in dict(card.errors.facts)
+
+
+def test_without_a_search_no_model_is_chosen() -> None:
+    card = cards(selection=None)["arm"]
+    assert card.errors is None
+    assert card.interval.method == "System around Gaussian process, tuned"
+
+
+def test_the_interval_is_the_deployed_one() -> None:
+    interval = cards()["arm"].interval
+    assert interval.method == "System around Gaussian process, tuned"
+    assert [mark.kind for mark in interval.marks] == ["chosen", "deployed"]
+    assert interval.reason == ""
+    assert interval.facts == [
+        ("mean width of a 90 % interval", "below a nanometre"),
+        ("coverage, test", "90.0 %"),
+        ("coordinates covered as guaranteed", "1 of 2"),
+        ("coverage, extrapolation (no guarantee)", "80.0 %"),
+        ("mean width, extrapolation", "0.500 mm"),
+    ]
+
+
+def test_where_another_interval_is_chosen_the_card_says_which_and_why() -> None:
+    interval = cards()["finger"].interval
+    assert [mark.kind for mark in interval.marks] == ["deployed"]
+    assert interval.reason.startswith("Chosen is CQR (Gradient boosting, tuned)")
+    assert "quantile regressors of its own" in interval.reason

@@ -1,0 +1,46 @@
+from __future__ import annotations
+
+from typing import Any
+
+from softkin.reporting.page.marks import Mark, Marks, kinds, merged
+
+LEAK = {"severity": "leak", "subsets": ["test", "validation"], "sentence": "Copies.", "consequence": "No test."}
+WARNING = {"severity": "warning", "subsets": ["test"], "sentence": "Few rows.", "consequence": "Mind."}
+
+
+def marks(*findings: dict[str, Any], notes: dict[str, str] | None = None, **description: Any) -> Marks:
+    return Marks(
+        {"arm": {"notes": notes or {}}}, {"arm": {"is_cut": False} | description}, {"arm": {"findings": findings}}
+    )
+
+
+def test_a_leak_marks_its_subsets_and_a_warning_none() -> None:
+    of = marks(LEAK, WARNING)
+    assert of.of("arm", "test") == (Mark("leak", "arm, test: Copies. No test."),)
+    assert of.of("arm", "train") == of.of("arm", "extrapolation") == ()
+
+
+def test_an_interval_is_marked_where_its_calibration_set_leaks() -> None:
+    only_validation = marks(LEAK | {"subsets": ["validation"]})
+    assert only_validation.of("arm", "test") == ()
+    assert kinds(only_validation.of_interval("arm", "test")) == ["leak"]
+
+
+def test_a_note_stands_with_the_leak_of_its_subset_or_is_a_caution() -> None:
+    notes = {"test": "Mind the gap."}
+    (leak,) = marks(LEAK, notes=notes).of("arm", "test")
+    assert leak == Mark("leak", "arm, test: Copies. No test. Mind the gap.")
+    (caution,) = marks(notes=notes).of("arm", "test")
+    assert caution == Mark("caution", "arm, test: Mind the gap.")
+
+
+def test_rows_left_out_and_stand_ins_mark_every_subset_once() -> None:
+    of = marks(is_cut=True, origin="stand-in")
+    assert kinds(of.of("arm", "train")) == ["rows left out", "stand-in"]
+    assert kinds(of.of_dataset("arm")) == ["rows left out", "stand-in"]
+
+
+def test_merging_keeps_each_mark_once_in_order() -> None:
+    one, two = Mark("leak", "x"), Mark("leak", "y")
+    assert merged([[one], [two, one]]) == (one, two)
+    assert kinds([one, two]) == ["leak"]

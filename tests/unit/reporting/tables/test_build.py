@@ -1,0 +1,92 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from softkin.reporting.tables.build import build_tables
+from softkin.reporting.titles import Titles
+from tests.unit.reporting.tables.conftest import Run
+
+TITLES = Titles({"gb": "Gradient boosting", "lr": "Linear regression"}, {"cqr": "CQR", "scp_mapie": "SCP (MAPIE)"})
+
+
+@pytest.fixture
+def folder(run: Run, tmp_path: Path) -> Path:
+    build_tables(run.tables(), titles=TITLES, folder=tmp_path / "tables")
+    return tmp_path / "tables"
+
+
+def test_each_frame_is_a_csv_as_it_is(run: Run, folder: Path) -> None:
+    frames = run.tables().frames
+    assert {path.stem for path in folder.glob("*.csv")} == set(frames)
+    for name, frame in frames.items():
+        assert (folder / f"{name}.csv").read_text() == frame.to_csv(index=False), name
+
+
+def test_the_papers_tables_come_in_its_order_with_what_is_not_comparable(folder: Path) -> None:
+    text = (folder / "paper_tables.md").read_text()
+    headings = [line for line in text.splitlines() if line.startswith("###")]
+    assert headings == [
+        "### Table 2: data description",
+        "### Table 5: comparison on FINGER",
+        "### Comparison on ARM (not in the paper)",
+        "### Table 6: conformal prediction and quantile regression",
+    ]
+    assert "Testing: LEAK: All rows stand in train." in text
+    assert "Extrapolation: Far out." in text
+    latex = (folder / "paper_tables.tex").read_text()
+    assert latex.count(r"\begin{table}") == len(headings)
+
+
+def test_the_preface_names_the_columns_that_there_are(folder: Path) -> None:
+    text = (folder / "paper_tables.md").read_text()
+    assert "Each metric has three columns: the cell as printed; ours with the paper's settings (paper); ours" in text
+    header = next(line for line in text.splitlines() if line.startswith("| Method"))
+    assert header.count("RMSE") == 3
+
+
+def test_with_the_outer_preset_there_are_four(run: Run, tmp_path: Path) -> None:
+    for files in run.datasets.values():
+        table = pd.read_csv(files.point)
+        outer = table[table["preset"] == "tuned"].assign(preset="outer")
+        pd.concat([table, outer]).to_csv(files.point, index=False)
+    build_tables(run.tables(), titles=TITLES, folder=tmp_path / "tables")
+    text = (tmp_path / "tables" / "paper_tables.md").read_text()
+    assert "Each metric has four columns" in text
+    assert "outer shells of train found (outer)" in text
+    assert next(line for line in text.splitlines() if line.startswith("| Method")).count("RMSE") == 4
+
+
+def test_the_interval_tables_show_what_is_chosen_and_what_is_deployed(folder: Path) -> None:
+    text = (folder / "interval_tables.md").read_text()
+    assert "| CQR, chosen | Gradient boosting, tuned |" in text
+    assert "| SCP (MAPIE), deployed | Gradient boosting, tuned |" in text
+    assert "FINGER: Chosen is CQR (Gradient boosting, tuned)" in text
+    assert "| *ARM (LEAK)* |" in text
+    assert "ARM, test: LEAK: All rows stand in train." in text
+    assert "Far out" not in text  # of test rows alone
+    assert r"\emph{ARM (LEAK)}" in (folder / "interval_tables.tex").read_text()
+
+
+def test_the_headline_names_the_deployed_models_and_the_leak(folder: Path) -> None:
+    text = (folder / "headline.txt").read_text()
+    assert "finger gb tuned 1.00 1.00 1.00" in " ".join(text.split())
+    assert "finger gb tuned scp_mapie 2.00 91.0 % 91.0 %" in " ".join(text.split())
+    assert "arm: LEAK" in text
+    assert "finger: LEAK" not in text
+    assert "printed cells" in text
+
+
+def test_where_nothing_was_searched_the_headline_has_intervals_alone(run: Run, tmp_path: Path) -> None:
+    build_tables(run.tables(searched=False), titles=TITLES, folder=tmp_path)
+    text = (tmp_path / "headline.txt").read_text()
+    assert "The model is chosen" not in text
+    assert "intervals of the calibrated models" in text
+
+
+def test_robots_that_the_paper_does_not_have_have_no_table_6(run: Run, tmp_path: Path) -> None:
+    own = Run({"arm": run.datasets["arm"]}, {key: path for key, path in run.parameters.items() if key[0] == "arm"})
+    tables = own.tables()
+    build_tables(tables, titles=TITLES, folder=tmp_path)

@@ -1,0 +1,24 @@
+from __future__ import annotations
+
+import numpy as np
+
+from softkin.uncertainty.calibration_data import QuantileCalibration
+from softkin.uncertainty.intervals.quantile_regression import intervals
+from tests.unit.uncertainty.conftest import LEVELS, quantile_calibration
+
+
+def test_intervals_are_the_predicted_quantiles() -> None:
+    data = quantile_calibration(12)
+    np.testing.assert_array_equal(intervals(data, LEVELS), data.new)
+
+
+def test_crossed_quantiles_are_put_in_order() -> None:
+    data = quantile_calibration(140)
+    crossed = QuantileCalibration(data.calibration[..., ::-1], data.truth, data.new[..., ::-1])
+    np.testing.assert_array_equal(intervals(crossed, LEVELS), intervals(data, LEVELS))
+
+
+def test_true_positions_do_not_matter() -> None:
+    data = quantile_calibration(12)
+    other = QuantileCalibration(data.calibration, 1e6 - data.truth, data.new)
+    np.testing.assert_array_equal(intervals(other, LEVELS), intervals(data, LEVELS))

@@ -1,0 +1,65 @@
+"""A finished run in its folder `results`: its tables, the descriptions of its datasets, and what things are called."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from softkin.core.files import read_json
+from softkin.data.audit.findings import leaking_subsets
+from softkin.models import MODELS
+from softkin.reporting.titles import Titles
+from softkin.uncertainty.intervals import INTERVAL_METHODS
+from softkin.uncertainty.labelled import LABELLED_METHODS
+from softkin.uncertainty.regions import REGION_METHODS
+from tools.run_tables import RunTables
+
+TITLES = Titles(
+    {name: spec.title for name, spec in MODELS.items()},
+    {
+        **{name: method.title for name, method in INTERVAL_METHODS.items()},
+        **{name: method.title for name, method in REGION_METHODS.items()},
+        **{name: method.title for name, method in LABELLED_METHODS.items()},
+    },
+)
+
+
+@dataclass(frozen=True)
+class FinishedRun:
+    """A run of the workflow, in its folder `results`."""
+
+    results: Path
+
+    @cached_property
+    def tables(self) -> RunTables:
+        """Its tables across datasets."""
+        return RunTables(self.results / "tables")
+
+    @cached_property
+    def datasets(self) -> list[str]:
+        """Names of its datasets, in the order of the configuration."""
+        return [str(name) for name in self.tables.read("selection")["dataset"].unique()]
+
+    def description(self, dataset: str) -> dict[str, Any]:
+        """Title, rows and hash of a dataset."""
+        description: dict[str, Any] = read_json(self.results / dataset / "dataset.json")
+        return description
+
+    def card(self, dataset: str) -> dict[str, Any]:
+        """The data card of a dataset."""
+        card: dict[str, Any] = read_json(self.results / dataset / "data_card.json")
+        return card
+
+    def name(self, dataset: str, subset: str | None = None) -> str:
+        """The title of a dataset without its remark in brackets, marked where scores on the subset leak."""
+        leaks = subset in leaking_subsets(self.card(dataset))
+        return str(self.description(dataset)["title"]).split(" (")[0] + (" (leak)" if leaks else "")
+
+
+def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A Markdown table."""
+    lines = [header, ["---"] * len(header), *rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
