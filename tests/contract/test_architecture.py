@@ -1,4 +1,4 @@
-"""The rules of the house, read off the source."""
+"""The architecture, read off the source. Every rule holds for every file: there are no lists of exemptions."""
 
 from __future__ import annotations
 
@@ -7,145 +7,113 @@ import re
 import statistics
 import subprocess
 import sys
+from collections.abc import Iterator
+from functools import cache
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
 import yaml
 
-from softkin.core.runs import PRESETS
+from softkin.core.imported_code import imported_modules
 from softkin.models import MODELS
+from softkin.models.quantile import QUANTILE_MODELS
 from tests.conftest import HOUSE
 
 SOURCE = HOUSE / "src" / "softkin"
-MODULES = sorted(path.relative_to(SOURCE) for path in SOURCE.rglob("*.py"))
-#: Lower floors first; a module imports from floors below it, and within its own folder only where listed here.
-FLOORS = [
-    {"interface", "__init__", "durations"},
-    {"files", "job", "conformal", "bounds", "folds", "findings", "growth", "rows", "shells", "standins"},
-    {
-        "watching",
-        "configuration",
-        "datasets",
-        "estimators",
-        "models",
-        "quantile_models",
-        "intervals",
-        "regions",
-        "metrics",
-        "smooth_fit",
-    },
-    {"target_spaces"},
-    {"fitting", "outside", "quantiles", "tables", "new_robot", "auditing"},
-    {"scoring", "tuning", "refitting", "evidence"},
-    {
-        "calibrating",
-        "choosing_intervals",
-        "refitting_shells",
-        "refitting_spaces",
-        "tuning_models",
-        "tuning_quantiles",
-        "scoring_regions",
-    },
-    {
-        "scoring_intervals",
-        "scoring_outside",
-        "conditional_coverage",
-        "figures",
-        "calibrated_model",
-        "report",
-        "gallery",
-    },
+FILES = sorted(SOURCE.rglob("*.py"))
+RULES = sorted((HOUSE / "workflow" / "rules").glob("*.smk"))
+SCRIPTS = sorted((HOUSE / "workflow" / "scripts").glob("*.py"))
+#: A package imports from those on lower levels, and from itself.
+LEVELS = [
+    {"core"},
+    {"data", "models"},
+    {"training"},
+    {"uncertainty"},
+    {"evaluation"},
+    {"reporting"},
     {"tracking"},
+    {"cli"},
 ]
-#: A folder's __init__ is its registry, preparing is the one call of its stage, table_file reads either kind of file,
-#: build gathers the tables.
-GATHERERS = {"datasets/__init__.py", "datasets/preparing.py", "models/__init__.py", "tables/build.py"}
-GATHERERS |= {"datasets/table_file.py"}
-GATHERERS |= {
-    "intervals/__init__.py",
-    "intervals/inside_and_outside.py",
-    "quantile_models/__init__.py",
-    "tables/interval_layout.py",
-    "tables/published_intervals.py",
-}
-GATHERERS |= {f"outside/{path.name}" for path in (SOURCE / "outside").glob("*.py")} - {"outside/method.py"}
-GATHERERS |= {"regions/__init__.py", "regions/ellipsoids.py"}
-GATHERERS |= {"auditing/__init__.py", "auditing/data_card.py", "auditing/cleaning.py"}
-GATHERERS |= {f"target_spaces/{name}.py" for name in ("__init__", "curvature", "base_frame")}
-#: Simulated robots stand on one rod.
-GATHERERS |= {f"standins/{path.name}" for path in (SOURCE / "standins").glob("*.py")} - {
-    "standins/rod.py",
-    "standins/robot.py",
-}
-GATHERERS |= {"tables/headline.py", "tracking/__init__.py", "tracking/models.py", "tracking/intervals.py"}
-GATHERERS |= {"tracking/champion.py"}
-
-#: The view draws the lines, which tell the progress.
-GATHERERS |= {"watching/lines.py", "watching/view.py"}
-
-#: The page is gathered from its parts.
-GATHERERS |= {
-    f"report/{name}.py"
-    for name in ("building", "cards", "grid", "headline", "jobs", "outside", "provenance", "published", "scores")
+LEVEL = {package: level for level, packages in enumerate(LEVELS) for package in packages}
+#: Where a library may be imported; `optuna` elsewhere for type checkers alone.
+PLACES = {
+    "mlflow": "tracking/",
+    "matplotlib": "reporting/figures/",
+    "optuna": "training/study.py",
+    "jinja2": "reporting/page/build.py",
+    "snakemake": "nowhere",
 }
 
-FIGURES = {module.as_posix() for module in MODULES if module.parts[0] == "figures"}
-#: All figures have one style, and read their data alike.
-GATHERERS |= FIGURES
+
+def module_of(path: Path) -> str:
+    """'softkin.data.table' of its file; a package's name of its `__init__`."""
+    return ".".join(path.relative_to(SOURCE.parent).with_suffix("").parts).removesuffix(".__init__")
 
 
-def imports(path: Path) -> set[str]:
-    found = set()
-    for node in ast.walk(ast.parse(path.read_text())):
+MODULES = {module_of(path): path for path in FILES}
+
+
+@cache
+def imports(path: Path) -> frozenset[str]:
+    """Modules that a file imports anywhere, for type checkers too; of softkin the modules that define the names."""
+    return frozenset(_imports(ast.parse(path.read_text())))
+
+
+def _imports(tree: ast.AST) -> Iterator[str]:
+    for node in ast.walk(tree):
         if isinstance(node, ast.Import):
-            found |= {alias.name for alias in node.names}
+            yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom) and node.module:
-            found.add(node.module)
-    return found
+            names = [f"{node.module}.{alias.name}" for alias in node.names]
+            yield from (name if name in MODULES else node.module for name in names)
 
 
-def part(module: str) -> str:
-    """'datasets' of 'softkin.data.table'."""
-    return module.split(".")[1] if "." in module else "__init__"
+def imports_at_run_time(path: Path) -> Iterator[str]:
+    """Modules that a file imports, but for those inside `if TYPE_CHECKING:`."""
+    tree = ast.parse(path.read_text())
+    tree.body = [
+        node for node in tree.body if not (isinstance(node, ast.If) and "TYPE_CHECKING" in ast.dump(node.test))
+    ]
+    return _imports(tree)
 
 
-def floor(name: str) -> int:
-    return next(level for level, names in enumerate(FLOORS) if name in names)
+def package_of(module: str) -> str | None:
+    """'data' of 'softkin.data.table'; None of another library's module, and of softkin's face."""
+    parts = module.split(".")
+    return parts[1] if parts[0] == "softkin" and len(parts) > 1 else None
 
 
-@pytest.mark.parametrize("module", MODULES, ids=str)
-def test_imports_go_down_only(module: Path) -> None:
-    mine = module.parts[0].removesuffix(".py")
-    for imported in (name for name in imports(SOURCE / module) if name.split(".")[0] == "softkin"):
-        theirs = part(imported)
-        lazy_estimator = mine in ("models", "quantile_models", "intervals") and theirs == "estimators"
-        gathering = theirs == mine and module.as_posix() in GATHERERS
-        assert floor(theirs) < floor(mine) or gathering or lazy_estimator, f"{module} imports {imported}"
+def test_the_top_level_holds_nine_packages_and_no_loose_module() -> None:
+    assert {path.name for path in SOURCE.glob("*.py")} == {"__init__.py"}
+    assert {path.parent.name for path in SOURCE.glob("*/__init__.py")} == set(LEVEL)
+    assert len(LEVEL) <= 10
+    assert imported_modules(SOURCE / "__init__.py") == (), "softkin's face imports when it is asked for a name"
 
 
-@pytest.mark.parametrize(
-    ("library", "allowed"),
-    [
-        ("mlflow", {f"tracking/{name}.py" for name in ("store", "models", "champion", "served_model")}),
-        ("matplotlib", FIGURES),
-        ("snakemake", set()),
-        ("optuna", {"tuning.py"}),
-        ("jinja2", {"report/building.py"}),
-    ],
-)
-def test_a_library_is_imported_in_its_one_place(library: str, allowed: set[str]) -> None:
-    learners = [path for folder in ("models", "quantile_models") for path in (SOURCE / folder).glob("*.py")]
-    typing_only = {"interface.py", "tuning_models.py"} | {path.relative_to(SOURCE).as_posix() for path in learners}
-    for module in MODULES:
-        if module.as_posix() in typing_only and library in ("optuna", "matplotlib"):
-            continue
-        names = {name.split(".")[0] for name in imports(SOURCE / module)}
-        assert library not in names or module.as_posix() in allowed, module
+@pytest.mark.parametrize("module", MODULES)
+def test_imports_run_down(module: str) -> None:
+    own = package_of(module)
+    others = {package_of(imported) for imported in imports(MODULES[module])} - {None, own}
+    assert own is None or all(LEVEL[other] < LEVEL[own] for other in others if other), others
+
+
+def test_no_imports_run_in_a_circle() -> None:
+    """For type checkers neither; `prepare` raises an error that names the circle."""
+    TopologicalSorter({module: imports(path) & set(MODULES) for module, path in MODULES.items()}).prepare()
+
+
+@pytest.mark.parametrize("library", PLACES)
+def test_a_library_is_imported_in_one_place(library: str) -> None:
+    for path in FILES:
+        libraries = {name.split(".")[0] for name in imports_at_run_time(path)}
+        place = path.relative_to(SOURCE).as_posix()
+        assert library not in libraries or place.startswith(PLACES[library]), place
 
 
 def test_registries_import_no_learning_library() -> None:
     """Snakemake imports them each time it starts: all that the rules import, read off the rules."""
-    rules = "".join(path.read_text() for path in (HOUSE / "workflow" / "rules").glob("*.smk"))
+    rules = "".join(path.read_text() for path in RULES)
     modules = sorted(set(re.findall(r"^(?:from|import) (softkin[\w.]*)", rules, re.MULTILINE)))
     assert {"softkin.models", "softkin.uncertainty.regions", "softkin.data.standins"} <= set(modules)
     code = f"import sys, {', '.join(modules)}; "
@@ -157,46 +125,73 @@ def test_registries_import_no_learning_library() -> None:
 def test_nobody_asks_which_model_or_dataset_it_is() -> None:
     names = [*MODELS, *yaml.safe_load((HOUSE / "config" / "datasets.yaml").read_text())["sources"]]
     asked = re.compile(rf"""(==|!=|\bin)\s*[(\[{{]?\s*["']({"|".join(names)})["']""")
-    for path in [*SOURCE.rglob("*.py"), *(HOUSE / "workflow").rglob("*.py"), *(HOUSE / "workflow").rglob("*.smk")]:
+    for path in [*FILES, *SCRIPTS, *RULES]:
         assert not asked.search(path.read_text()), path
 
 
+def test_no_model_is_named_outside_models() -> None:
+    names = {*MODELS, *QUANTILE_MODELS}
+    for path in [*SCRIPTS, *(path for module, path in MODULES.items() if package_of(module) != "models")]:
+        texts = {node.value for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, ast.Constant)}
+        assert not texts & names, path
+    for path in RULES:
+        assert not set(re.findall(r"[\"'](\w+)[\"']", path.read_text())) & names, path
+
+
+def blocks() -> dict[str, str]:
+    """Name -> text of each rule."""
+    texts = [re.split(r"^rule (\w+):", path.read_text(), flags=re.MULTILINE)[1:] for path in RULES]
+    return {name: block for text in texts for name, block in zip(text[::2], text[1::2], strict=True)}
+
+
 def test_each_script_serves_the_rule_of_its_name() -> None:
-    rules: dict[str, str] = {}
-    for path in (HOUSE / "workflow" / "rules").glob("*.smk"):
+    for name, block in blocks().items():
+        assert re.findall(r'"\.\./scripts/(\w+)\.py"', block) == [name]
+        # Fetching a file and making the store are done once: editing their code must not repeat them.
+        assert f'code_of("{name}")' in block or name in ("retrieve", "create_store"), name
+    assert {path.stem for path in SCRIPTS} == set(blocks())
+
+
+def test_logs_and_benchmarks_bear_the_name_of_their_rule() -> None:
+    for name, block in blocks().items():
+        stems = re.findall(r"\"results/(logs|benchmarks)/(\w+)", block)
+        assert "logs" in {kind for kind, _ in stems}, name
+        assert {stem for _, stem in stems} == {name}
+
+
+def test_rules_are_plain() -> None:
+    for path in RULES:
         text = path.read_text()
         assert not re.search(r"^\s+run:", text, re.MULTILINE), f"{path.name}: no run: blocks"
         assert "lambda" not in text, f"{path.name}: no lambdas"
-        blocks = re.split(r"^rule (\w+):", text, flags=re.MULTILINE)[1:]
-        for name, block in zip(blocks[::2], blocks[1::2], strict=True):
-            script = re.search(r'"\.\./scripts/(\w+)\.py"', block)
-            assert script, name
-            assert "log:" in block, f"rule {name} has no log"
-            # Fetching a file and making the store are done once: editing their code must not repeat them.
-            assert "package(" in block or name in ("retrieve", "create_store"), f"rule {name} lists no module"
-            rules[name] = script[1]
-    assert all(name == script for name, script in rules.items())
-    assert {path.stem for path in (HOUSE / "workflow" / "scripts").glob("*.py")} == set(rules)
 
 
 def test_files_stay_short() -> None:
-    paths = [*SOURCE.rglob("*.py"), *(HOUSE / "workflow").rglob("*.smk"), *(HOUSE / "workflow").rglob("*.py")]
-    lengths = {path: len(path.read_text().splitlines()) for path in paths}
-    assert max(lengths.values()) <= 300, max(lengths, key=lambda path: lengths[path])
-    assert statistics.median(lengths.values()) <= 100
-    assert len((HOUSE / "Snakefile").read_text().splitlines()) < 60
-    assert not [path for path in paths if path.stem in ("utils", "helpers", "common_utils")]
+    lengths = {path: len(path.read_text().splitlines()) for path in [*FILES, *RULES, *SCRIPTS]}
+    assert max(lengths[path] for path in FILES) <= 250, max(FILES, key=lambda path: lengths[path])
+    assert max(lengths[path] for path in RULES) <= 200
+    assert statistics.median(lengths[path] for path in FILES) <= 100
+    assert len((HOUSE / "Snakefile").read_text().splitlines()) <= 60
+    assert not [path for path in lengths if path.stem in ("utils", "helpers", "common", "misc")]
 
 
-def test_the_presets_of_the_schema_are_those_of_the_code() -> None:
-    schema = yaml.safe_load((HOUSE / "workflow" / "schemas" / "config.schema.yaml").read_text())
-    assert tuple(schema["properties"]["presets"]["items"]["enum"]) == PRESETS
+def test_functions_stay_short_and_take_few_parameters() -> None:
+    for path in [*FILES, *SCRIPTS, *(HOUSE / "tools").rglob("*.py")]:
+        for node in ast.walk(ast.parse(path.read_text())):
+            if isinstance(node, ast.FunctionDef):
+                given = [*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs]
+                parameters = [parameter for parameter in given if parameter.arg not in ("self", "cls")]
+                assert len(parameters) <= 8, f"{path}: {node.name}"
+                assert node.end_lineno is not None
+                assert node.end_lineno - node.lineno < 60, f"{path}: {node.name}"
 
 
-def test_every_key_of_the_configuration_is_explained() -> None:
-    schema = yaml.safe_load((HOUSE / "workflow" / "schemas" / "config.schema.yaml").read_text())
-    text = (HOUSE / "config" / "README.md").read_text()
-    entry = schema["properties"]["sources"]["additionalProperties"]["properties"]
-    nested = [schema["properties"][key]["properties"] for key in ("tuning", "refitting", "shells")]
-    for key in [*schema["properties"], *(key for keys in nested for key in keys), *entry]:
-        assert f"`{key}`" in text, f"config/README.md does not explain `{key}`"
+def test_protocols_name_their_types() -> None:
+    for path in SOURCE.rglob("spec.py"):
+        assert "Callable[[Any" not in path.read_text(), path
+
+
+@pytest.mark.parametrize("path", [path for path in FILES if path.name != "__init__.py"], ids=module_of)
+def test_every_module_has_its_test_file(path: Path) -> None:
+    place = path.relative_to(SOURCE)
+    assert (HOUSE / "tests" / "unit" / place.parent / f"test_{place.name}").is_file()

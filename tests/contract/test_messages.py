@@ -71,9 +71,8 @@ def unknown_in_fix(text: str) -> list[str]:
         if COMMAND.match(value):
             continue
         word = value.split()[0]
-        if key not in KEYS:
-            wrong.append(f"{key}: {word}")
-        elif word.isidentifier() and word not in (values_of(key) or {word}) and word not in KEYS:
+        allowed = values_of(key) if key in KEYS else set()
+        if allowed is not None and word not in allowed:
             wrong.append(f"{key}: {word}")
     names = re.findall(r"`([a-z_]+)`", text) + re.findall(r"(?<![\w./{}-])[a-z]+(?:_[a-z]+)+(?![\w./(-])", text)
     subsets = PROPERTIES["rows"]

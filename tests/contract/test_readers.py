@@ -41,10 +41,9 @@ def of_published_json() -> Example:
     content = published_json(arm)
     without_a_subset = {key: rows for key, rows in content.items() if key != "val"}
     without_a_row = content | {"test": content["test"] | {"position": content["test"]["position"][1:]}}
-    bad = [(json.dumps(damaged), entry) for damaged in (without_a_subset, without_a_row, [])]
-    return Example(
-        json.dumps(content), entry, arm, (*bad, ("{", entry), (json.dumps(content), entry | {"n_markers": 3}))
-    )
+    text, damaged = json.dumps(content), ["{", "[]", json.dumps(without_a_subset), json.dumps(without_a_row)]
+    bad = [(other, entry) for other in damaged]
+    return Example(text, entry, arm, (*bad, (text, entry | {"n_markers": 3})))
 
 
 def of_a_table() -> Example:

@@ -11,7 +11,6 @@ class SoftkinError(Exception):
     `what` says what is wrong; `where` names the file, field or dataset; `fix` says what to do, as an imperative.
 
     Example:
-
         >>> from softkin import SoftkinError
         >>> print(SoftkinError("column 'u1' is missing", where="robot.csv", fix="add it, or rename the column"))
         robot.csv: column 'u1' is missing

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from softkin.core.runs import PAPER, Run
 from softkin.core.samples import Array, Params, Samples
@@ -16,6 +16,16 @@ if TYPE_CHECKING:
 PAPERS_RUN = Run("gb", PAPER)
 #: Trends on whose residuals a model that extrapolates as a constant may be fitted; the index is the degree.
 TRENDS = ("none", "linear", "quadratic")
+
+
+class Regressor(Protocol):
+    """A multi-output scikit-learn regressor: commands (n_rows, n_commands) -> targets, both standardised."""
+
+    def fit(self, X: Array, y: Array) -> Any:
+        """Fit on commands X and targets y (n_rows, n_targets), or (n_rows,) of one target."""
+
+    def predict(self, X: Array) -> Any:
+        """Targets of commands X."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,11 +44,11 @@ class ModelSpec:
     name: str
     title: str
     family: str
-    build: Callable[[Params, int, int], Any]
+    build: Callable[[Params, int, int], Regressor]
     paper_params: Params
     search_space: Callable[[BaseTrial], Params]
     first_trials: tuple[Mapping[str, Any], ...]
-    spread: Callable[[Any, Samples, Array], Array] | None = None
+    spread: Callable[[Regressor, Samples, Array], Array] | None = None
     is_predictive: bool = False
     is_cheap: bool = False
     is_robust: bool = False

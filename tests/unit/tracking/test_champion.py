@@ -19,19 +19,12 @@ from mlflow import MlflowClient
 from mlflow.exceptions import MlflowException
 
 from softkin.core.files import write_json
-from softkin.core.samples import SUBSETS, Samples
-from softkin.models import MODELS
 from softkin.tracking import Campaign, create_store, log_champion
 from softkin.tracking.store import PARENT
-from softkin.training.fit import fit_quietly, kinematic_model
-from softkin.uncertainty.calibrated_model import CalibratedModel, calibrated
-from softkin.uncertainty.intervals import INTERVAL_METHODS
 from tests.conftest import bending_arm
+from tests.unit.tracking.robots import DESCRIPTION, champion_files, interval_metrics, robot, with_shells
 
 NAME = "softkin-finger"
-ABOUT = {"dataset": "finger", "title": "FINGER", "sha256": "ab" * 32, "origin": "published", "n_commands": 2}
-ABOUT |= {"n_markers": 1, "is_cut": False, "rows": dict.fromkeys(SUBSETS, 60)}
-LEAK = {"severity": "leak", "sentence": "Nine rows of test stand in train.", "consequence": "It is training error."}
 
 
 @pytest.fixture
@@ -43,38 +36,9 @@ def campaign(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Campaign:
     return Campaign("nightly", seed=5, tracking_uri=uri, artifacts=str(tmp_path / "artifacts"))
 
 
-def champion(seed: int = 0) -> CalibratedModel:
-    train: Samples = bending_arm(60, seed=seed)
-    params = {"kernel": "rbf", "trend": "linear", "max_iter": 5}
-    estimator = kinematic_model(MODELS["gp"], params, skip_constant=True, seed=0, threads=1)
-    fit_quietly(estimator, train, 1)
-    method, validation = INTERVAL_METHODS["scp_spread"], bending_arm(60, seed=7)
-    return calibrated("finger", MODELS["gp"], "tuned", method, estimator, train, validation)
-
-
 @pytest.fixture
 def files(tmp_path: Path) -> dict[str, Any]:
-    write_json(tmp_path / "dataset.json", ABOUT)
-    write_json(tmp_path / "data_card.json", {"findings": [LEAK]})
-    joblib.dump(champion(), tmp_path / "calibrated_model.joblib")
-    key = {"dataset": "finger", "model": "gp", "preset": "tuned"}
-    errors = {"euclidean_mean_mm": 0.25, "euclidean_p95_mm": 0.5, "rmse_mm": 0.125}
-    pd.DataFrame([key | {"subset": subset} | errors for subset in SUBSETS]).to_csv(tmp_path / "point.csv", index=False)
-    method = {
-        "interval_method": "scp_spread",
-        "coordinate": "mean_informative",
-        "mean_width_mm": 2.0,
-        "winkler_mm": 3.0,
-    }
-    rows = [
-        key | method | {"subset": subset, "confidence_level": level, "coverage": level + 0.02}
-        for subset in ("test", "extrapolation")
-        for level in (0.8, 0.9)
-    ]
-    pd.DataFrame(rows).to_csv(tmp_path / "intervals.csv", index=False)
-    names = {"description": "dataset.json", "data_card": "data_card.json", "point": "point.csv"}
-    names |= {"intervals": "intervals.csv", "calibrated_model": "calibrated_model.joblib"}
-    return {name: tmp_path / file for name, file in names.items()} | {"parent": "the-campaign"}
+    return champion_files(tmp_path)
 
 
 def alias(client: MlflowClient) -> str:
@@ -84,16 +48,16 @@ def alias(client: MlflowClient) -> str:
 def test_the_champion_predicts_what_the_calibrated_model_predicts(campaign: Campaign, files: dict[str, Any]) -> None:
     log_champion(campaign, **files)
     served = mlflow.pyfunc.load_model(f"models:/{NAME}@champion")
-    robot = joblib.load(files["calibrated_model"])
+    expected = joblib.load(files["calibrated_model"])
     commands = bending_arm(20, seed=9).commands
     for params, level in ((None, 0.9), ({"confidence_level": 0.8}, 0.8)):
         answer = served.predict(pd.DataFrame(commands[:, ::-1], columns=["u2", "u1"]), params=params)
         assert list(answer) == [f"{part}_m1_{axis}" for part in ("y_pred", "lower", "upper") for axis in "xyz"]
-        np.testing.assert_array_equal(answer.filter(like="y_pred"), robot.predict(commands))
-        bounds = robot.intervals(commands, [level])[0]
+        np.testing.assert_array_equal(answer.filter(like="y_pred"), expected.predict(commands))
+        bounds = expected.intervals(commands, [level])[0]
         np.testing.assert_array_equal(answer.filter(like="lower"), bounds[..., 0])
         np.testing.assert_array_equal(answer.filter(like="upper"), bounds[..., 1])
-    np.testing.assert_array_equal(served.unwrap_python_model().model.box(0.9), robot.box(0.9))
+    np.testing.assert_array_equal(served.unwrap_python_model().model.box(0.9), expected.box(0.9))
     with pytest.raises(MlflowException, match="missing inputs"):
         served.predict(pd.DataFrame({"u1": [0.0]}))
 
@@ -117,27 +81,19 @@ def test_it_comes_with_signature_example_requirements_and_its_own_code(
     assert elsewhere.stdout.strip().endswith("/artifacts/code/softkin/__init__.py")
 
 
-def test_the_card_says_how_good_what_is_promised_what_is_wrong_and_how_to_use_it(
-    campaign: Campaign, files: dict[str, Any], tmp_path: Path
-) -> None:
+def test_the_card_is_that_of_version_and_run(campaign: Campaign, files: dict[str, Any], tmp_path: Path) -> None:
     log_champion(campaign, **files)
     client = MlflowClient(campaign.tracking_uri)
     version = client.get_model_version_by_alias(NAME, "champion")
-    for part in (
-        "| test | 0.250 | 0.500 | 0.125 | 92.0% | 2.00 |",
-        "in at least 90% of cases",
-        "the 60 rows of `validation`",
-        "**leak**: Nine rows of test stand in train. It is training error.",
-        'load_model("models:/softkin-finger@champion")',
-    ):
-        assert part in version.description
+    assert "| test | 0.250 | 0.500 | 0.125 | 92.0 % | 2.00 |" in version.description
+    assert 'load_model("models:/softkin-finger@champion")' in version.description
     run = client.get_run(version.run_id)
     assert run.data.tags["mlflow.note.content"] == version.description
     assert run.data.metrics["test/coverage_90"] == 0.92
     assert f"models:/{run.outputs.model_outputs[0].model_id}" == version.source
     card = client.download_artifacts(version.run_id, "model_card.md", str(tmp_path))
     assert Path(card).read_text() == version.description
-    write_json(files["description"], ABOUT | {"origin": "stand-in"})
+    write_json(files["description"], DESCRIPTION | {"origin": "stand-in"})
     log_champion(campaign, **files)
     assert "STAND-IN" in client.get_model_version_by_alias(NAME, "champion").description
 
@@ -153,7 +109,7 @@ def test_the_same_content_is_no_new_version(campaign: Campaign, files: dict[str,
 @pytest.mark.parametrize(
     "change",
     [
-        lambda files: joblib.dump(champion(seed=1), files["calibrated_model"]),
+        lambda files: joblib.dump(robot(seed=1), files["calibrated_model"]),
         lambda files: write_json(files["data_card"], {"findings": []}),
     ],
     ids=["another model", "another card"],
@@ -180,3 +136,16 @@ def test_a_result_that_returns_gets_its_version_back(campaign: Campaign, files: 
     assert log_champion(replace(campaign, name="weekly"), **files) == "2"
     assert log_champion(campaign, **files) == "1"
     assert alias(MlflowClient(campaign.tracking_uri)) == "1"
+
+
+def test_a_model_with_shells_is_scored_by_the_intervals_that_it_gives(
+    campaign: Campaign, files: dict[str, Any]
+) -> None:
+    joblib.dump(with_shells(robot()), files["calibrated_model"])
+    everywhere = interval_metrics("auto").assign(coverage=0.75)
+    pd.concat([interval_metrics(), everywhere]).to_csv(files["intervals"], index=False)
+    log_champion(campaign, **files)
+    client = MlflowClient(campaign.tracking_uri)
+    run = client.get_run(client.get_model_version_by_alias(NAME, "champion").run_id)
+    assert run.data.metrics["extrapolation/coverage_90"] == 0.75
+    assert run.data.tags["interval_method"] == "scp_spread"

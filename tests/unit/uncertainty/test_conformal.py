@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.stats import kstest
@@ -67,6 +67,7 @@ def test_a_calibration_set_that_is_too_small_has_no_rank() -> None:
     assert conformal_rank(18, 0.95) is None
 
 
+@settings(deadline=None)
 @given(arrays(float, (3, 4, 2), elements=st.floats(-10, 10)))
 def test_an_empty_interval_is_closed_to_its_middle_and_no_other_is_touched(intervals: Array) -> None:
     result = closed(intervals)
@@ -82,6 +83,7 @@ def test_engines_get_one_coordinate_at_a_time() -> None:
         columns(np.zeros(3))
 
 
+@settings(deadline=None)
 @given(
     st.integers(1, 40),
     st.integers(0, 10_000),

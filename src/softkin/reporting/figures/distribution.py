@@ -56,7 +56,7 @@ FIGURE = FigureSpec(
     "Distribution of positions",
     "Cumulative distribution of each coordinate of the marker that moves furthest, by subset. Validation and test "
     "should lie on the curve of train; if they do not, the split is not random. Extrapolation departs from it: where "
-    "its curve rises beyond both ends of train, models predict positions that they were not fitted to.",
+    "its curve lies beyond an end of that of train, models predict positions that they were not fitted to.",
     frame,
     plot,
 )

@@ -96,8 +96,8 @@ FIGURE = FigureSpec(
     "Coverage of each method's intervals (left), and their Winkler score divided by that of an oracle, which is "
     "calibrated on the very rows it is scored on (right), for the paper's gradient boosting, the deployed model and "
     "the robust ones. A good method stands at both dashed lines on test and on extrapolation: left of the first it "
-    "misses too often, right of the second its intervals cost more than they need to. On extrapolation only labelled "
-    "methods (diamonds), which see true positions there, have a guarantee.",
+    "misses too often, right of the second its intervals cost more than they need to. On extrapolation nothing is "
+    "guaranteed to a method that sees no true position there; labelled methods (diamonds) see some.",
     frame,
     plot,
 )

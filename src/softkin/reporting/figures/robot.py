@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from softkin.core.samples import TEST, TRAIN, Array, coordinate_columns, informative_coordinates
 from softkin.data.table import read_subset
@@ -17,19 +18,19 @@ from softkin.reporting.figures.style import BLACK, LOOKS, PAGE, SKY, VERMILION, 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-#: The poses are the rows of `test` whose error of the shown marker has these ranks: a good one, the median, a bad one,
-#: and one that only a twentieth of all rows exceed.
-QUANTILES = (0.25, 0.5, 0.75, 0.95)
+#: The poses stand at these quantiles of the shown marker's error on `test`: a good row, the median, a bad row, and one
+#: that only a twentieth of all rows exceed. Rows of nearly that rank stand for it just as well.
+QUANTILES, NEAR = (0.25, 0.5, 0.75, 0.95), 0.04
 HEIGHT = 4.6
 
 
 def frame(results: DatasetResults) -> pd.DataFrame:
-    """Columns model, preset, interval_method, confidence_level, pose, error_quantile, marker, error_mm, is_shown,
+    """Columns model, preset, interval_method, confidence_level, pose, error_rank, marker, error_mm, is_shown,
     true_x .. true_z, predicted_x .., lower_x .., upper_x .. (mm), is_moving_x ..: a row per marker of every row of
     `test`.
 
-    `pose` is 1 to 4 where the error of the marker that moves furthest (`is_shown`) stands at one of `QUANTILES`, and 0
-    of all other rows.
+    `error_rank` is the share of rows where the marker that moves furthest (`is_shown`) has a smaller error. `pose` is 1
+    to 4 for the rows that are drawn, which `typical` picks, and 0 for all others.
     """
     best = deployed(results)
     if best is None:
@@ -41,13 +42,14 @@ def frame(results: DatasetResults) -> pd.DataFrame:
     assert box is not None  # a candidate has intervals
     errors = np.linalg.norm((guess - true).reshape(len(true), n_markers, 3), axis=-1)
     shown = shown_coordinate(results)[0] // 3
-    pose, quantile = typical(errors[:, shown])
+    ranks = np.argsort(np.argsort(errors[:, shown], kind="stable")) / max(len(errors) - 1, 1)
+    pose = typical(ranks, true[:, 3 * shown : 3 * shown + 3])
     moving = np.tile(informative_coordinates(read_subset(results.table, TRAIN).positions), (len(true), 1))
     arrays = {"true": true, "predicted": guess, "lower": box[..., 0], "upper": box[..., 1], "is_moving": moving}
     columns = {
         f"{name}_{axis}": array[:, i::3].ravel() for name, array in arrays.items() for i, axis in enumerate(AXES)
     }
-    key = {"pose": np.repeat(pose, n_markers), "error_quantile": np.repeat(quantile, n_markers)}
+    key = {"pose": np.repeat(pose, n_markers), "error_rank": np.repeat(ranks, n_markers)}
     key |= {"marker": np.tile(np.arange(n_markers) + 1, len(true)), "error_mm": errors.ravel()}
     table = pd.DataFrame(key | columns)
     table["is_shown"] = table["marker"] == shown + 1
@@ -55,17 +57,24 @@ def frame(results: DatasetResults) -> pd.DataFrame:
     return table.assign(**names, confidence_level=best.confidence_level)
 
 
-def typical(errors: Array) -> tuple[Array, Array]:
-    """Number of the pose (n_rows,), 1 .. for the row of each of `QUANTILES` and 0 for others, and that quantile (NaN).
+def typical(ranks: Array, positions: Array) -> NDArray[np.intp]:
+    """Numbers (n_rows,) of the poses by rank, from 1, and 0 for rows that are none.
 
-    The row of a quantile is the one of nearest rank; of two quantiles with the same row the first is kept.
+    Of the rows whose rank is within `NEAR` of a quantile, the pose is the one whose position (n_rows, 3) is farthest
+    from the poses before it, the first from the mean; where no rank is that near, the nearest one.
     """
-    order = np.argsort(errors, kind="stable")
-    rows = {int(order[round(level * (len(errors) - 1))]): level for level in reversed(QUANTILES)}
-    pose, quantile = np.zeros(len(errors), dtype=int), np.full(len(errors), np.nan)
-    for number, (row, level) in enumerate(sorted(rows.items(), key=lambda item: item[1]), 1):
-        pose[row], quantile[row] = number, level
-    return pose, quantile
+    poses: list[int] = []
+    distance = np.linalg.norm(positions - positions.mean(axis=0), axis=1)
+    for level in QUANTILES[: len(ranks)]:
+        gap = np.abs(ranks - level)
+        gap[poses] = np.inf
+        row = int(np.argmax(np.where(gap <= max(NEAR, gap.min()), distance, -1.0)))
+        to_row = np.linalg.norm(positions - positions[row], axis=1)
+        distance = np.minimum(distance, to_row) if poses else to_row
+        poses.append(row)
+    numbers = np.zeros(len(ranks), dtype=np.intp)
+    numbers[sorted(poses, key=lambda row: ranks[row])] = np.arange(len(poses)) + 1
+    return numbers
 
 
 def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
@@ -99,10 +108,10 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
 FIGURE = FigureSpec(
     "robot",
     "Typical poses and their intervals",
-    "Four poses of test, where the error of the marker that moves furthest stands at its 25, 50, 75 and 95 % quantile: "
-    "in space among all true positions (grey), and axis by axis as seen from the predicted position (right). A black "
-    "dot on its blue bar is covered, a red one beside it is missed in that axis. The bars below the robot are the "
-    "share of all rows of test that are covered: of a good method those of single axes end at the dashed line, the "
+    "Four poses of test by the error of the marker that moves furthest: near its 25, 50, 75 and 95 % quantile, and far "
+    "apart in space. Left, they stand among all true positions (grey); right, axis by axis as seen from the predicted "
+    "position. A black dot on its blue bar is covered, a red one beside it is missed in that axis. The bars below the "
+    "robot are the share of all rows of test that are covered: those of single axes should end at the dashed line, the "
     "nominal level. All axes at once are covered less often, as each may miss in rows of its own.",
     frame,
     plot,

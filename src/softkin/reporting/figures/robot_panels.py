@@ -10,6 +10,7 @@ import pandas as pd
 
 from softkin.core.samples import Array
 from softkin.reporting.figures.style import BLACK, GREY, LEAST_MM, LIGHT, LOOKS, SKY, VERMILION
+from softkin.reporting.tables.numbers import number_text
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -82,7 +83,7 @@ def draw_intervals(axes: Axes, tips: pd.DataFrame) -> None:
     for place, row in enumerate(rows.itertuples()):
         top = -place * (len(moving) + GAP)
         missed_axes = [axis for axis, off in zip(moving, is_missed[place], strict=True) if off]
-        _head(axes, row, top, missed_axes, f"{row.error_mm * factor:.3g} {unit}")
+        _head(axes, row, top, missed_axes, f"{number_text(row.error_mm * factor)} {unit}")
         for i in range(len(moving)):
             heights.append(top - 1.0 - i)
             _bar(axes, heights[-1], bounds[place, i], true[place, i], limit, is_missed=bool(is_missed[place, i]))
@@ -131,7 +132,7 @@ def draw_shares(axes: Axes, tips: pd.DataFrame, frame: pd.DataFrame) -> None:
 def _head(axes: Axes, row: Any, height: float, missed_axes: list[str], error: str) -> None:
     """Write the number of a pose, its error, and in which axes it is missed above its bars."""
     look: dict[str, Any] = {"transform": axes.get_yaxis_transform(), "va": "center", "fontsize": 8}
-    axes.text(0.0, height, f"pose {row.pose}: {error} off ({row.error_quantile:.0%} quantile)", **look)
+    axes.text(0.0, height, f"pose {row.pose}: {error} off ({row.error_rank:.0%} are nearer)", **look)
     verdict = f"missed in {' and '.join(missed_axes)}" if missed_axes else "covered"
     axes.text(1.0, height, verdict, ha="right", color=VERMILION if missed_axes else BLACK, **look)
 

@@ -19,10 +19,10 @@ from tests.unit.data.audit.clean_robot import clean_robot
 def written_card(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
     folder: Path = tmp_path_factory.mktemp("card")
     write_table(to_table(clean_robot(300, n_commands=2, n_markers=1, seed=1)), folder / "table.parquet")
-    files = {"data_card": folder / "card.json", "readable": folder / "card.md"}
-    audit(folder / "table.parquet", dataset="arm", title="Arm", position_unit="cm", **files)
-    card: dict[str, Any] = read_json(folder / "card.json")
-    assert page(card) == (folder / "card.md").read_text(encoding="utf-8")
+    table, data_card, readable = folder / "table.parquet", folder / "card.json", folder / "card.md"
+    audit(table, dataset="arm", title="Arm", position_unit="cm", data_card=data_card, readable=readable)
+    card: dict[str, Any] = read_json(data_card)
+    assert page(card) == readable.read_text(encoding="utf-8")
     return card
 
 

@@ -25,7 +25,9 @@ def marched(rod: Rod, of_rows: Loads, moments: Array, n_steps: int = 24) -> Arra
 
 
 def test_the_base_is_clamped_and_carries_all_forces() -> None:
-    of_rows = loads(ROD, 2, tip_force=(1.0, 2.0, 3.0), distributed_force=(0.0, 0.0, -0.1), tensions=[[5.0, 6.0]] * 2)
+    of_rows = loads(
+        ROD, 2, tip_force=(1.0, 2.0, 3.0), distributed_force=(0.0, 0.0, -0.1), tensions=np.array([[5.0, 6.0]] * 2)
+    )
     moments = np.arange(6.0).reshape(3, 2)
     state = base_states(ROD, of_rows, UPRIGHT, moments)
     assert state.shape == (15, 2)
@@ -64,7 +66,7 @@ def test_forces_and_moments_balance_along_the_rod() -> None:
 
 
 def test_marching_back_leads_back_to_the_base() -> None:
-    of_rows = loads(ROD, 1, tip_force=(0.2, 0.1, 0.0), tensions=[[10.0, 3.0]])
+    of_rows = loads(ROD, 1, tip_force=(0.2, 0.1, 0.0), tensions=np.array([[10.0, 3.0]]))
     moments = np.array([[10.0], [-20.0], [5.0]])
     states = marched(ROD, of_rows, moments, n_steps=48)
     back = march(ROD, of_rows, states[-1], -ROD.length / 48, 48)
@@ -73,7 +75,7 @@ def test_marching_back_leads_back_to_the_base() -> None:
 
 def test_friction_takes_tension_away_in_the_direction_of_sliding() -> None:
     rubbing = Rod(120.0, *section(7.0, *disc(10.0)), tendons=TENDONS, friction=0.3)
-    of_rows = loads(rubbing, 3, tensions=20.0, slides=[[1.0, 1.0], [0.0, 0.0], [-1.0, -1.0]])
+    of_rows = loads(rubbing, 3, tensions=20.0, slides=np.array([[1.0], [0.0], [-1.0]]))
     tensions = marched(rubbing, of_rows, np.array([[0.0], [2000.0], [0.0]]) * np.ones(3))[-1, T]
     assert (tensions[:, 0] < 20.0).all()
     np.testing.assert_array_equal(tensions[:, 1], 20.0)
@@ -82,7 +84,7 @@ def test_friction_takes_tension_away_in_the_direction_of_sliding() -> None:
 
 def test_a_row_whose_tendons_find_no_direction_is_left_unsolved() -> None:
     limp = Rod(120.0, (1e3,) * 3, (5e4, 5e4, 50.0), tendons=((8.0, 0.0), (0.0, 8.0)))
-    of_rows = loads(limp, 2, tip_force=(0.1, 0.1, 0.0), tensions=[[0.0, 0.0], [500.0, 500.0]])
+    of_rows = loads(limp, 2, tip_force=(0.1, 0.1, 0.0), tensions=np.array([[0.0], [500.0]]))
     with np.errstate(all="ignore"):
         tip = marched(limp, of_rows, np.array([[1.0], [1.0], [1.0]]) * np.ones(2), n_steps=8)[-1]
     assert np.isfinite(tip[:, 0]).all()

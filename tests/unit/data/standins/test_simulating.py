@@ -109,7 +109,7 @@ def test_a_total_is_enough() -> None:
         ("snake", 100, "stand-in 'snake': unknown[\\s\\S]*pneumatic_arm"),
         ("tendon_finger", {"train": 5}, "every subset needs a row"),
         ("tendon_finger", {**SIZES, "test": 0}, "every subset needs a row"),
-        ("tendon_finger", 4, "every subset needs a row[\\s\\S]*mend"),
+        ("tendon_finger", 4, "every subset needs a row[\\s\\S]*fix: "),
     ],
 )
 def test_what_cannot_be_simulated_is_an_error(name: str, n_rows: int | dict[str, int], says: str) -> None:

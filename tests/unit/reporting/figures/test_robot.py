@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from softkin.reporting.figures.reading import bounds
-from softkin.reporting.figures.robot import QUANTILES, frame, plot, typical
+from softkin.reporting.figures.robot import NEAR, QUANTILES, frame, plot, typical
 from softkin.reporting.figures.spec import DatasetResults
 from tests.unit.reporting.figures.conftest import N_MISSED, RUNS
 from tests.unit.reporting.figures.drawn import bars
@@ -22,26 +22,32 @@ def spread_errors(results: DatasetResults) -> None:
     stored.to_parquet(path)
 
 
-def test_poses_are_the_rows_nearest_to_quantiles_of_the_error() -> None:
-    errors = np.random.default_rng(0).permutation(101).astype(float)
-    pose, quantile = typical(errors)
-    for number, level in enumerate(QUANTILES, 1):
-        row = np.flatnonzero(pose == number).item()
-        assert errors[row] == 100 * level
-        assert quantile[row] == level
-    assert (pose > 0).sum() == len(QUANTILES)
-    assert np.isnan(quantile[pose == 0]).all()
+def test_poses_stand_near_quantiles_of_the_error_and_far_apart() -> None:
+    rng = np.random.default_rng(0)
+    ranks, positions = rng.permutation(101) / 100, rng.normal(size=(101, 3))
+    numbers = typical(ranks, positions)
+    assert sorted(numbers[numbers > 0]) == [1, 2, 3, 4]
+    rows = [np.flatnonzero(numbers == number).item() for number in (1, 2, 3, 4)]
+    for n, (row, level) in enumerate(zip(rows, QUANTILES, strict=True)):
+        near = np.abs(ranks - level) <= NEAR
+        assert near[row]
+        others = positions[rows[:n]] if n else positions.mean(axis=0, keepdims=True)
+        apart = np.linalg.norm(positions[:, None] - others[None], axis=-1).min(axis=1)
+        assert apart[row] == apart[near].max()
 
 
-def test_a_failed_row_is_no_typical_pose() -> None:
-    errors = np.r_[np.linspace(1.0, 2.0, 99), 500.0]
-    assert errors[typical(errors)[0] > 0].max() < 2.0
+def test_a_row_of_gross_error_is_no_typical_pose() -> None:
+    positions = np.zeros((100, 3))
+    positions[99] = 500.0  # the row of largest error lies far off, too
+    numbers = typical(np.arange(100) / 99, positions)
+    assert numbers[99] == 0
 
 
 @pytest.mark.parametrize(("n_rows", "n_poses"), [(1, 1), (2, 2), (3, 3), (40, 4)])
 def test_few_rows_have_fewer_poses_and_none_twice(n_rows: int, n_poses: int) -> None:
-    pose, _ = typical(np.arange(n_rows, dtype=float))
-    assert sorted(pose[pose > 0]) == list(range(1, n_poses + 1))
+    ranks = np.arange(n_rows) / max(n_rows - 1, 1)
+    numbers = typical(ranks, np.random.default_rng(1).normal(size=(n_rows, 3)))
+    assert numbers[numbers > 0].tolist() == list(range(1, n_poses + 1))  # the ranks ascend
 
 
 def test_each_row_of_test_has_its_error_and_its_intervals(results: DatasetResults) -> None:
@@ -51,7 +57,8 @@ def test_each_row_of_test_has_its_error_and_its_intervals(results: DatasetResult
     assert rows["is_shown"].all()
     shown = rows[rows["pose"] > 0].sort_values("pose")
     assert shown["pose"].tolist() == [1, 2, 3, 4]
-    assert shown["error_quantile"].tolist() == list(QUANTILES)
+    np.testing.assert_allclose(shown["error_rank"], QUANTILES, atol=NEAR)
+    np.testing.assert_allclose(rows["error_rank"], np.arange(40) / 39)
     assert shown["error_mm"].is_monotonic_increasing
     box = bounds(results, "scp_spread", RUNS[3], 0.9)
     assert box is not None

@@ -36,8 +36,13 @@ class Run:
         published = PublishedFiles(
             *(PUBLISHED / f"{name}.csv" for name in ("point_metrics", "subsets", "interval_metrics"))
         )
-        parameters = self.parameters if searched else {}
-        return read_tables(self.datasets, sources=SOURCES, parameters=parameters, objective="both", published=published)
+        return read_tables(
+            self.datasets,
+            sources={name: SOURCES[name] for name in self.datasets},
+            parameters=self.parameters if searched else {},
+            objective="both",
+            published=published,
+        )
 
 
 def _point(dataset: str) -> list[dict[str, Any]]:
@@ -88,13 +93,18 @@ def write_dataset(folder: Path, dataset: str) -> DatasetFiles:
     return DatasetFiles(*(folder / f"{name}.csv" for name in CSV), folder / "dataset.json", folder / "data_card.json")
 
 
-@pytest.fixture
-def run(tmp_path: Path) -> Run:
-    datasets = {dataset: write_dataset(tmp_path / dataset, dataset) for dataset in SOURCES}
+def write_run(folder: Path) -> Run:
+    datasets = {dataset: write_dataset(folder / dataset, dataset) for dataset in SOURCES}
     parameters = {}
     for dataset in SOURCES:
         for model, score in (("gb", 1.0), ("lr", 2.0)):
-            path = tmp_path / dataset / f"{model}.json"
+            path = folder / dataset / f"{model}.json"
             write_json(path, {"cv_mae_mm": score, "shell_mae_mm": score, "target_space": "cartesian"})
             parameters[dataset, model, "tuned"] = path
     return Run(datasets, parameters)
+
+
+@pytest.fixture
+def run(tmp_path: Path) -> Run:
+    """Files that a test may change."""
+    return write_run(tmp_path)

@@ -6,20 +6,28 @@ import pandas as pd
 import pytest
 
 from softkin.reporting.tables.build import build_tables
+from softkin.reporting.tables.frames import Tables
 from softkin.reporting.titles import Titles
-from tests.unit.reporting.tables.conftest import Run
+from tests.unit.reporting.tables.conftest import Run, write_run
 
 TITLES = Titles({"gb": "Gradient boosting", "lr": "Linear regression"}, {"cqr": "CQR", "scp_mapie": "SCP (MAPIE)"})
 
 
-@pytest.fixture
-def folder(run: Run, tmp_path: Path) -> Path:
-    build_tables(run.tables(), titles=TITLES, folder=tmp_path / "tables")
-    return tmp_path / "tables"
+@pytest.fixture(scope="module")
+def tables(tmp_path_factory: pytest.TempPathFactory) -> Tables:
+    return write_run(tmp_path_factory.mktemp("run")).tables()
 
 
-def test_each_frame_is_a_csv_as_it_is(run: Run, folder: Path) -> None:
-    frames = run.tables().frames
+@pytest.fixture(scope="module")
+def folder(tables: Tables, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """All tables of a run."""
+    folder = tmp_path_factory.mktemp("tables")
+    build_tables(tables, titles=TITLES, folder=folder)
+    return folder
+
+
+def test_each_frame_is_a_csv_as_it_is(tables: Tables, folder: Path) -> None:
+    frames = tables.frames
     assert {path.stem for path in folder.glob("*.csv")} == set(frames)
     for name, frame in frames.items():
         assert (folder / f"{name}.csv").read_text() == frame.to_csv(index=False), name
@@ -88,5 +96,8 @@ def test_where_nothing_was_searched_the_headline_has_intervals_alone(run: Run, t
 
 def test_robots_that_the_paper_does_not_have_have_no_table_6(run: Run, tmp_path: Path) -> None:
     own = Run({"arm": run.datasets["arm"]}, {key: path for key, path in run.parameters.items() if key[0] == "arm"})
-    tables = own.tables()
-    build_tables(tables, titles=TITLES, folder=tmp_path)
+    build_tables(own.tables(), titles=TITLES, folder=tmp_path)
+    text = (tmp_path / "paper_tables.md").read_text()
+    assert "Table 6" not in text
+    assert "nothing was run that the paper has printed" in text
+    assert "printed |" not in text

@@ -1,0 +1,68 @@
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from softkin.tracking.model_card import model_card
+from softkin.uncertainty.calibrated_model import CalibratedModel
+from tests.unit.tracking.robots import DESCRIPTION, LEAK, interval_metrics, point_metrics, robot, with_shells
+
+
+def card(model: CalibratedModel | None = None, **changed: Any) -> str:
+    description = DESCRIPTION | {"findings": [LEAK]} | changed
+    metrics = interval_metrics()
+    return model_card(
+        model or robot(),
+        registered="softkin-finger",
+        description=description,
+        scores=point_metrics().set_index("subset"),
+        intervals=metrics[metrics["confidence_level"] == 0.9].set_index("subset"),
+        level=0.9,
+    )
+
+
+def test_it_says_errors_guarantee_data_and_use() -> None:
+    text = card()
+    assert text.startswith("# FINGER\n\nGaussian process (tuned preset): 2 commands to the position of 1 marker")
+    for part in (
+        "| rows | mean marker error, mm | 95 % below, mm | RMSE, mm | 90 % intervals cover | mean width, mm |",
+        "| test | 0.250 | 0.500 | 0.125 | 92.0 % | 2.00 |",
+        "| extrapolation | 0.250 | 0.500 | 0.125 | 92.0 % | 2.00 |",
+        "in at least 90 % of cases",
+        "the 60 rows of `validation`",
+        "60 train, 60 validation, 60 test, 60 extrapolation rows; origin: published",
+        "**leak**: Nine rows of test stand in train. It is training error.",
+        'load_model("models:/softkin-finger@champion")',
+        'pandas.DataFrame({"u1": [0.0], "u2": [0.0]})',
+        '"confidence_level": 0.9',
+    ):
+        assert part in text
+
+
+def test_simulated_data_come_with_a_warning_before_anything_else() -> None:
+    assert card(origin="stand-in").splitlines()[2].startswith("**STAND-IN")
+    assert "STAND-IN" not in card()
+
+
+def test_rows_that_were_left_out_are_named() -> None:
+    assert "Rows were left out" in card(is_cut=True)
+    assert "Rows were left out" not in card()
+
+
+def test_a_sound_dataset_says_so() -> None:
+    assert "The audit has no finding." in card(findings=[])
+    assert "The audit has no finding." not in card()
+
+
+@pytest.mark.parametrize(("has_shells", "says"), [(True, True), (False, False)])
+def test_intervals_made_for_extrapolation_are_explained_and_not_guaranteed(has_shells: bool, says: bool) -> None:
+    text = card(with_shells(robot()) if has_shells else robot())
+    assert ("outer shells" in text) == says
+    assert "nothing is guaranteed" in text
+
+
+def test_a_method_without_a_guarantee_has_none() -> None:
+    text = card(robot(method="gaussian"))
+    assert "Intervals by this method have no guarantee." in text
+    assert "in at least" not in text

@@ -1,0 +1,56 @@
+from __future__ import annotations
+
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import joblib
+import numpy as np
+import pandas as pd
+import pytest
+
+from softkin.tracking.served_model import ServedModel
+from tests.conftest import bending_arm
+from tests.unit.tracking.robots import robot
+
+COMMANDS = bending_arm(12, seed=9).commands
+
+
+@pytest.fixture
+def served(tmp_path: Path) -> ServedModel:
+    joblib.dump(robot(), tmp_path / "model.joblib")
+    model = ServedModel()
+    model.load_context(SimpleNamespace(artifacts={"calibrated_model": str(tmp_path / "model.joblib")}))
+    return model
+
+
+def answer(served: ServedModel, level: float) -> pd.DataFrame:
+    commands = pd.DataFrame(COMMANDS, columns=["u1", "u2"])
+    params: dict[str, Any] = {"confidence_level": level}
+    table: pd.DataFrame = served.predict(None, commands, params)
+    return table
+
+
+def test_positions_and_bounds_stand_in_named_columns(served: ServedModel) -> None:
+    table = answer(served, 0.9)
+    assert list(table) == [f"{part}_m1_{axis}" for part in ("y_pred", "lower", "upper") for axis in "xyz"]
+    assert len(table) == len(COMMANDS)
+
+
+@pytest.mark.parametrize("level", [0.8, 0.95])
+def test_they_are_those_of_the_calibrated_model(served: ServedModel, level: float) -> None:
+    table = answer(served, level)
+    bounds = robot().intervals(COMMANDS, [level])[0]
+    np.testing.assert_array_equal(table.filter(like="y_pred"), robot().predict(COMMANDS))
+    np.testing.assert_array_equal(table.filter(like="lower"), bounds[..., 0])
+    np.testing.assert_array_equal(table.filter(like="upper"), bounds[..., 1])
+
+
+def test_a_higher_level_is_a_wider_interval(served: ServedModel) -> None:
+    narrow, wide = answer(served, 0.8), answer(served, 0.95)
+    assert (wide["upper_m1_x"] - wide["lower_m1_x"] > narrow["upper_m1_x"] - narrow["lower_m1_x"]).all()
+
+
+def test_without_a_level_there_is_no_interval(served: ServedModel) -> None:
+    with pytest.raises(KeyError, match="confidence_level"):
+        served.predict(None, pd.DataFrame(COMMANDS, columns=["u1", "u2"]))
