@@ -76,7 +76,7 @@ class House:
 
 def copy_house(root: Path) -> None:
     root.mkdir()
-    for name in ("Snakefile", "CITATION.cff", "config", "workflow", "profiles", "src"):
+    for name in ("Snakefile", "CITATION.cff", "config", "workflow", "profiles", "resources", "src"):
         source = HOUSE / name
         if source.is_dir():
             shutil.copytree(source, root / name, ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))

@@ -23,6 +23,7 @@ from mlflow.utils.mlflow_tags import MLFLOW_MODEL_VERSIONS
 import softkin
 from softkin.core.files import sha256_of
 from softkin.core.samples import command_columns, coordinate_columns
+from softkin.tracking import served_model
 from softkin.tracking.model_card import model_card
 from softkin.tracking.store import (
     CONTENT,
@@ -161,7 +162,7 @@ def _log_model(
     with tempfile.TemporaryDirectory() as folder:
         mlflow.pyfunc.save_model(
             f"{folder}/model",
-            python_model=str(Path(__file__).with_name("served_model.py")),
+            python_model=served_model.__file__,
             artifacts={"calibrated_model": str(file.resolve())},
             code_paths=[str(Path(softkin.__file__).parent)],
             signature=_signature(model, level),

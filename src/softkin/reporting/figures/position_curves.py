@@ -104,8 +104,8 @@ FIGURE = FigureSpec(
     "Position curves",
     "True position (line) of the coordinate that moves furthest, rows sorted by it, and the predictions of each model "
     "(dots) with the paper's settings and with searched ones: on test those of the preset tuned, on extrapolation "
-    "those of outer. The dots of a good model hide in the line. A plateau of dots is a model that cannot extrapolate, a "
-    "band beside the line is a bias, single dots far from it are gross errors of the data or of the model.",
+    "those of outer. The dots of a good model hide in the line. A plateau of dots is a model that cannot extrapolate, "
+    "a band beside the line is a bias, single dots far from it are gross errors of the data or of the model.",
     frame,
     plot,
 )

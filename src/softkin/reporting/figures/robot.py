@@ -6,21 +6,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
-from softkin.core.samples import TEST, TRAIN, Array, coordinate_columns, informative_coordinates
+from softkin.core.samples import TEST, TRAIN, coordinate_columns, informative_coordinates
 from softkin.data.table import read_subset
 from softkin.reporting.figures.reading import bounds, deployed, predicted, shown_coordinate
 from softkin.reporting.figures.robot_panels import AXES, draw_intervals, draw_poses, draw_shares, missed
 from softkin.reporting.figures.spec import DatasetResults, FigureSpec
 from softkin.reporting.figures.style import BLACK, LOOKS, PAGE, SKY, VERMILION, blank, heading, legend_below, sample
+from softkin.reporting.figures.typical_poses import ranks, relative_errors, typical_poses
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-#: The poses stand at these quantiles of the shown marker's error on `test`: a good row, the median, a bad row, and one
-#: that only a twentieth of all rows exceed. Rows of nearly that rank stand for it just as well.
-QUANTILES, NEAR = (0.25, 0.5, 0.75, 0.95), 0.04
 HEIGHT = 4.6
 
 
@@ -29,8 +26,8 @@ def frame(results: DatasetResults) -> pd.DataFrame:
     true_x .. true_z, predicted_x .., lower_x .., upper_x .. (mm), is_moving_x ..: a row per marker of every row of
     `test`.
 
-    `error_rank` is the share of rows where the marker that moves furthest (`is_shown`) has a smaller error. `pose` is 1
-    to 4 for the rows that are drawn, which `typical` picks, and 0 for all others.
+    `error_rank` is the share of rows whose error beside their interval, of the marker that moves furthest (`is_shown`),
+    is smaller. `pose` is 1 to 4 for the rows that are drawn, which `typical_poses` picks, and 0 for all others.
     """
     best = deployed(results)
     if best is None:
@@ -42,39 +39,21 @@ def frame(results: DatasetResults) -> pd.DataFrame:
     assert box is not None  # a candidate has intervals
     errors = np.linalg.norm((guess - true).reshape(len(true), n_markers, 3), axis=-1)
     shown = shown_coordinate(results)[0] // 3
-    ranks = np.argsort(np.argsort(errors[:, shown], kind="stable")) / max(len(errors) - 1, 1)
-    pose = typical(ranks, true[:, 3 * shown : 3 * shown + 3])
-    moving = np.tile(informative_coordinates(read_subset(results.table, TRAIN).positions), (len(true), 1))
-    arrays = {"true": true, "predicted": guess, "lower": box[..., 0], "upper": box[..., 1], "is_moving": moving}
+    is_moving = informative_coordinates(read_subset(results.table, TRAIN).positions)
+    moving = 3 * shown + np.flatnonzero(is_moving[3 * shown : 3 * shown + 3])
+    scores = relative_errors(true[:, moving], *(box[:, moving, side] for side in (0, 1)))
+    pose = typical_poses(scores, true[:, 3 * shown : 3 * shown + 3])
+    arrays = {"true": true, "predicted": guess, "lower": box[..., 0], "upper": box[..., 1]}
+    arrays["is_moving"] = np.tile(is_moving, (len(true), 1))
     columns = {
         f"{name}_{axis}": array[:, i::3].ravel() for name, array in arrays.items() for i, axis in enumerate(AXES)
     }
-    key = {"pose": np.repeat(pose, n_markers), "error_rank": np.repeat(ranks, n_markers)}
+    key = {"pose": np.repeat(pose, n_markers), "error_rank": np.repeat(ranks(scores), n_markers)}
     key |= {"marker": np.tile(np.arange(n_markers) + 1, len(true)), "error_mm": errors.ravel()}
     table = pd.DataFrame(key | columns)
     table["is_shown"] = table["marker"] == shown + 1
     names = {"model": best.model, "preset": best.preset, "interval_method": best.interval_method}
     return table.assign(**names, confidence_level=best.confidence_level)
-
-
-def typical(ranks: Array, positions: Array) -> NDArray[np.intp]:
-    """Numbers (n_rows,) of the poses by rank, from 1, and 0 for rows that are none.
-
-    Of the rows whose rank is within `NEAR` of a quantile, the pose is the one whose position (n_rows, 3) is farthest
-    from the poses before it, the first from the mean; where no rank is that near, the nearest one.
-    """
-    poses: list[int] = []
-    distance = np.linalg.norm(positions - positions.mean(axis=0), axis=1)
-    for level in QUANTILES[: len(ranks)]:
-        gap = np.abs(ranks - level)
-        gap[poses] = np.inf
-        row = int(np.argmax(np.where(gap <= max(NEAR, gap.min()), distance, -1.0)))
-        to_row = np.linalg.norm(positions - positions[row], axis=1)
-        distance = np.minimum(distance, to_row) if poses else to_row
-        poses.append(row)
-    numbers = np.zeros(len(ranks), dtype=np.intp)
-    numbers[sorted(poses, key=lambda row: ranks[row])] = np.arange(len(poses)) + 1
-    return numbers
 
 
 def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
@@ -108,11 +87,11 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
 FIGURE = FigureSpec(
     "robot",
     "Typical poses and their intervals",
-    "Four poses of test by the error of the marker that moves furthest: near its 25, 50, 75 and 95 % quantile, and far "
-    "apart in space. Left, they stand among all true positions (grey); right, axis by axis as seen from the predicted "
-    "position. A black dot on its blue bar is covered, a red one beside it is missed in that axis. The bars below the "
-    "robot are the share of all rows of test that are covered: those of single axes should end at the dashed line, the "
-    "nominal level. All axes at once are covered less often, as each may miss in rows of its own.",
+    "Four poses of test, each typical of a quarter of the rows, from the best to the worst by their error beside their "
+    "interval: in space among all true positions (grey), and axis by axis as seen from the predicted position. A black "
+    "dot on its blue bar is covered, a red one beside it is missed in that axis. The bars below the robot are the "
+    "share of all rows of test that are covered: those of single axes should end at the dashed line, the nominal "
+    "level. All axes at once are covered less often, as each may miss in rows of its own.",
     frame,
     plot,
 )

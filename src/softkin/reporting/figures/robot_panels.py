@@ -23,6 +23,8 @@ CORNERS = list(product((0, 1), repeat=3))
 EDGES = [(a, b) for a, b in combinations(CORNERS, 2) if sum(i != j for i, j in zip(a, b, strict=True)) == 1]
 #: A true position further off than this many times the largest bound is drawn at the edge, with its distance.
 MOST_BOUNDS = 2.0
+#: By the share of rows that are better than a row.
+QUARTERS = ("best quarter", "second quarter", "third quarter", "worst quarter", "worst quarter")
 #: Between the bars of two poses, in bars.
 GAP = 1.6
 #: A box smaller than this share of the workspace is not drawn in space: it would hide in its mark.
@@ -132,7 +134,7 @@ def draw_shares(axes: Axes, tips: pd.DataFrame, frame: pd.DataFrame) -> None:
 def _head(axes: Axes, row: Any, height: float, missed_axes: list[str], error: str) -> None:
     """Write the number of a pose, its error, and in which axes it is missed above its bars."""
     look: dict[str, Any] = {"transform": axes.get_yaxis_transform(), "va": "center", "fontsize": 8}
-    axes.text(0.0, height, f"pose {row.pose}: {error} off ({row.error_rank:.0%} are nearer)", **look)
+    axes.text(0.0, height, f"pose {row.pose}: {error} off, {QUARTERS[int(4 * row.error_rank)]}", **look)
     verdict = f"missed in {' and '.join(missed_axes)}" if missed_axes else "covered"
     axes.text(1.0, height, verdict, ha="right", color=VERMILION if missed_axes else BLACK, **look)
 

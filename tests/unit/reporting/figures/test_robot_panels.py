@@ -17,7 +17,7 @@ def markers(n_markers: int = 1, n_rows: int = 4) -> pd.DataFrame:
     """Rows whose true position is 1, 2, .. mm off in x, with intervals of 2.5 mm to either side."""
     rows = pd.DataFrame({"pose": np.repeat(np.arange(n_rows) + 1, n_markers)})
     rows["marker"] = np.tile(np.arange(n_markers) + 1, n_rows)
-    rows["error_rank"] = rows["pose"] / 10
+    rows["error_rank"] = (rows["pose"] - 1) / 3
     rows["error_mm"] = 1.0 * rows["pose"]
     for place, axis in enumerate("xyz"):
         rows[f"predicted_{axis}"] = 10.0 * rows["marker"] + 5.0 * place * rows["pose"]
@@ -52,7 +52,8 @@ def test_misses_are_marked_in_their_axis_and_named() -> None:
     assert dots(axes, VERMILION) == [3.0, 4.0]
     assert sorted(dots(axes, BLACK)) == [0.0] * 8 + [1.0, 2.0]
     texts = [text.get_text() for text in axes.texts]
-    assert texts[::2] == [f"pose {n}: {n}.00 mm off ({n}0% are nearer)" for n in (1, 2, 3, 4)]
+    quarters = ["best quarter", "second quarter", "third quarter", "worst quarter"]
+    assert texts[::2] == [f"pose {n}: {n}.00 mm off, {quarter}" for n, quarter in enumerate(quarters, 1)]
     assert texts[1::2] == ["covered", "covered", "missed in x", "missed in x"]
 
 
