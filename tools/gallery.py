@@ -31,7 +31,7 @@ from tools.finished_run import TITLES, FinishedRun, table
 PAGE = Path("docs") / "results.md"
 FOLDER = "gallery"
 BEGIN, END = "<!-- gallery: written by `make gallery` -->", "<!-- end of gallery -->"
-#: (folder in results/, figure) of each picture; the first leads the README, too.
+#: (folder in results/, figure) of each picture; the first leads the README as well.
 PICTURES = (
     ("finger", "robot"),
     ("finger", "workspace_predictions"),

@@ -97,7 +97,7 @@ def test_published_subset_sizes_are_those_of_table_2(dataset: str, tmp_path: Pat
     raw = published_mirror / source["file"]
     table, description = tmp_path / "table.parquet", tmp_path / "dataset.json"
     prepare(raw, dataset=dataset, source=source, table=table, description=description)
-    printed = pd.read_csv(HOUSE / "config" / "published" / "subsets.csv")
+    printed = pd.read_csv(HOUSE / "resources" / "published" / "subsets.csv")
     written_description = read_json(description)
     paper_name = dataset.removesuffix("_2023_09")
     for row in printed[printed["dataset"] == paper_name].itertuples():

@@ -8,7 +8,7 @@ from sklearn.neural_network import MLPRegressor
 
 from softkin.core.samples import Samples
 from softkin.models.estimators.last_layer_laplace import last_layer_laplace
-from softkin.models.mlp import SPEC
+from softkin.models.mlp import SPEC, build
 from tests.conftest import bending_arm
 
 SMALL = {"solver": "lbfgs", "activation": "tanh", "layers": 2, "width": 5, "alpha": 1e-2, "max_iter": 20}
@@ -23,21 +23,21 @@ def train() -> Samples:
 
 
 def test_layers_and_width_shape_the_network(train: Samples) -> None:
-    network = SPEC.build({**SMALL, "layers": 3}, 0, 1).fit(train.commands, train.positions)
+    network = build({**SMALL, "layers": 3}, 0, 1).fit(train.commands, train.positions)
     assert [weights.shape for weights in network.coefs_] == [(2, 5), (5, 5), (5, 5), (5, 3)]
 
 
 def test_the_papers_network_has_a_seed_of_its_own_and_stops_early(train: Samples) -> None:
-    one, two = (SPEC.build({**SPEC.paper_params}, seed, 1) for seed in (0, 5))
+    one, two = (build({**SPEC.paper_params}, seed, 1) for seed in (0, 5))
     assert one.random_state == two.random_state == 1
     with pytest.warns(ConvergenceWarning):
         one.fit(train.commands, train.positions)
     assert one.n_iter_ == 12
-    assert SPEC.build(SMALL, 5, 1).random_state == 5
+    assert build(SMALL, 5, 1).random_state == 5
 
 
 def test_several_networks_see_all_rows_and_predict_their_mean(train: Samples) -> None:
-    networks = SPEC.build({**SMALL, "networks": 3}, 0, 1).fit(train.commands, train.positions)
+    networks = build({**SMALL, "networks": 3}, 0, 1).fit(train.commands, train.positions)
     members = [network.predict(train.commands) for network in networks.estimators_]
     assert len(members) == 3
     assert not np.allclose(members[0], members[1])
@@ -49,20 +49,20 @@ def test_several_networks_see_all_rows_and_predict_their_mean(train: Samples) ->
 def test_the_spread_of_several_networks_is_that_of_their_mixture(train: Samples) -> None:
     assert SPEC.spread is not None
     assert SPEC.is_predictive
-    networks = SPEC.build({**SMALL, "networks": 3}, 0, 1).fit(train.commands, train.positions)
+    networks = build({**SMALL, "networks": 3}, 0, 1).fit(train.commands, train.positions)
     each: list[MLPRegressor] = networks.estimators_
     variances = np.mean([last_layer_laplace(one, train, train.commands) ** 2 for one in each], axis=0)
     means = np.var([one.predict(train.commands) for one in each], axis=0)
     expected = np.sqrt(variances + means)
     np.testing.assert_allclose(SPEC.spread(networks, train, train.commands), expected, rtol=1e-10)
-    alone = SPEC.build(SMALL, 0, 1).fit(train.commands, train.positions)
+    alone = build(SMALL, 0, 1).fit(train.commands, train.positions)
     spread = SPEC.spread(alone, train, train.commands)
     np.testing.assert_allclose(spread, last_layer_laplace(alone, train, train.commands), rtol=1e-10)
 
 
 def test_the_spread_around_a_trend_is_in_the_unit_of_the_targets(train: Samples) -> None:
     assert SPEC.spread is not None
-    fitted = SPEC.build({**SMALL, "trend": "linear"}, 0, 1).fit(train.commands, train.positions)
+    fitted = build({**SMALL, "trend": "linear"}, 0, 1).fit(train.commands, train.positions)
     inner = last_layer_laplace(fitted.regressor_, fitted.residuals(train), train.commands)
     np.testing.assert_allclose(SPEC.spread(fitted, train, train.commands), inner * fitted.scale_, rtol=1e-10)
 

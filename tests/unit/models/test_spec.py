@@ -24,7 +24,9 @@ def test_a_model_need_not_have_a_spread_and_is_neither_cheap_nor_robust_by_defau
     spec = minimal()
     assert spec.spread is None
     assert (spec.is_predictive, spec.is_cheap, spec.is_robust) == (False, False, False)
-    assert spec.build({}, 0, 1).fit([[0.0], [1.0]], [0.0, 2.0]).predict([[2.0]]) == pytest.approx([4.0])
+    regressor = spec.build({}, 0, 1)
+    regressor.fit(np.array([[0.0], [1.0]]), np.array([0.0, 2.0]))
+    assert regressor.predict(np.array([[2.0]])) == pytest.approx([4.0])
 
 
 def test_a_spec_is_frozen() -> None:

@@ -10,10 +10,11 @@ import pytest
 from mlflow import MlflowClient
 
 from softkin.core.files import write_json
+from softkin.core.runs import Run
 from softkin.core.samples import SUBSETS
 from softkin.tracking import Campaign, create_store
 
-ABOUT = {
+DESCRIPTION = {
     "dataset": "finger",
     "title": "FINGER",
     "sha256": "ab" * 32,
@@ -33,10 +34,10 @@ def campaign(tmp_path: Path) -> Campaign:
 @pytest.fixture
 def results(tmp_path: Path) -> dict[str, Any]:
     """Result files of two runs of one dataset."""
-    write_json(tmp_path / "dataset.json", ABOUT | {"rows": dict.fromkeys(SUBSETS, 9)})
+    write_json(tmp_path / "dataset.json", DESCRIPTION | {"rows": dict.fromkeys(SUBSETS, 9)})
     finding = {"severity": "leak", "sentence": "Nine rows of test stand in train."}
     write_json(tmp_path / "data_card.json", {"findings": [finding]})
-    runs: dict[tuple[str, str], dict[str, str]] = {}
+    runs: dict[Run, dict[str, str]] = {}
     rows = []
     for model, preset in (("svr", "paper"), ("svr", "tuned")):
         folder = tmp_path / model / preset
@@ -53,7 +54,7 @@ def results(tmp_path: Path) -> dict[str, Any]:
             table.to_csv(files["trials"], index=False)
         else:
             del files["parameters"]
-        runs[model, preset] = files
+        runs[Run(model, preset)] = files
         for subset in SUBSETS:
             key = {"dataset": "finger", "subset": subset, "model": model, "preset": preset}
             rows.append(key | {"rmse_mm": 1.5, "euclidean_mean_mm": 2.0, "fit_seconds": 3.0, "predict_us_per_row": 4.0})
@@ -75,8 +76,13 @@ def interval_files(tmp_path: Path) -> dict[str, Path]:
     for method in ("qr", "scp_mapie"):
         for subset in ("test", "extrapolation"):
             for coordinate in ("m1_x", "mean_informative", "joint"):
-                key = {"dataset": "finger", "subset": subset, "model": "svr", "preset": "tuned"}
-                values = {"coverage": 0.91, "mean_width_mm": 2.0, "infinite_share": 0.0, "crossing_share": 0.0}
+                key: dict[str, Any] = {"dataset": "finger", "subset": subset, "model": "svr", "preset": "tuned"}
+                values: dict[str, float] = {
+                    "coverage": 0.91,
+                    "mean_width_mm": 2.0,
+                    "infinite_share": 0.0,
+                    "crossing_share": 0.0,
+                }
                 values |= {"crps_mm": float("nan"), "size_mm": 2.5 if coordinate == "joint" else float("nan")}
                 values["winkler_mm"] = float("inf") if coordinate == "joint" else 3.0
                 rows.append(
@@ -86,6 +92,11 @@ def interval_files(tmp_path: Path) -> dict[str, Path]:
     files = {"metrics": "intervals.csv", "figures": "figures"}
     files |= {"description": "dataset.json", "data_card": "data_card.json"}
     return {name: tmp_path / file for name, file in files.items()}
+
+
+def client_of_store(campaign: Campaign) -> Any:
+    """MLflow's client; untyped, since MLflow types as absent what is there."""
+    return MlflowClient(campaign.tracking_uri)
 
 
 def snapshot(campaign: Campaign) -> dict[str, Any]:

@@ -15,13 +15,13 @@ import mlflow.pyfunc
 import numpy as np
 import pandas as pd
 import pytest
-from mlflow import MlflowClient
 from mlflow.exceptions import MlflowException
 
 from softkin.core.files import write_json
 from softkin.tracking import Campaign, create_store, log_champion
 from softkin.tracking.store import PARENT
 from tests.conftest import bending_arm
+from tests.unit.tracking.conftest import client_of_store
 from tests.unit.tracking.robots import DESCRIPTION, champion_files, interval_metrics, robot, with_shells
 
 NAME = "softkin-finger"
@@ -41,7 +41,7 @@ def files(tmp_path: Path) -> dict[str, Any]:
     return champion_files(tmp_path)
 
 
-def alias(client: MlflowClient) -> str:
+def alias(client: Any) -> str:
     return str(client.get_model_version_by_alias(NAME, "champion").version)
 
 
@@ -83,7 +83,7 @@ def test_it_comes_with_signature_example_requirements_and_its_own_code(
 
 def test_the_card_is_that_of_version_and_run(campaign: Campaign, files: dict[str, Any], tmp_path: Path) -> None:
     log_champion(campaign, **files)
-    client = MlflowClient(campaign.tracking_uri)
+    client = client_of_store(campaign)
     version = client.get_model_version_by_alias(NAME, "champion")
     assert "| test | 0.250 | 0.500 | 0.125 | 92.0 % | 2.00 |" in version.description
     assert 'load_model("models:/softkin-finger@champion")' in version.description
@@ -101,7 +101,7 @@ def test_the_card_is_that_of_version_and_run(campaign: Campaign, files: dict[str
 def test_the_same_content_is_no_new_version(campaign: Campaign, files: dict[str, Any]) -> None:
     assert log_champion(campaign, **files) == "1"
     assert log_champion(campaign, **files | {"parent": "another"}) == "1"
-    client = MlflowClient(campaign.tracking_uri)
+    client = client_of_store(campaign)
     (version,) = client.search_model_versions(f"name = '{NAME}'")
     assert client.get_run(version.run_id).data.tags[PARENT] == "another"
 
@@ -122,7 +122,7 @@ def test_other_content_is_a_version_that_gets_the_alias(
     before = joblib.load(files["calibrated_model"]).predict(commands)
     change(files)
     assert log_champion(campaign, **files) == "2"
-    client = MlflowClient(campaign.tracking_uri)
+    client = client_of_store(campaign)
     assert alias(client) == "2"
     named = pd.DataFrame(commands, columns=["u1", "u2"])
     old, new = (mlflow.pyfunc.load_model(f"models:/{NAME}/{version}") for version in (1, 2))
@@ -135,7 +135,7 @@ def test_a_result_that_returns_gets_its_version_back(campaign: Campaign, files: 
     log_champion(campaign, **files)
     assert log_champion(replace(campaign, name="weekly"), **files) == "2"
     assert log_champion(campaign, **files) == "1"
-    assert alias(MlflowClient(campaign.tracking_uri)) == "1"
+    assert alias(client_of_store(campaign)) == "1"
 
 
 def test_a_model_with_shells_is_scored_by_the_intervals_that_it_gives(
@@ -145,7 +145,7 @@ def test_a_model_with_shells_is_scored_by_the_intervals_that_it_gives(
     everywhere = interval_metrics("auto").assign(coverage=0.75)
     pd.concat([interval_metrics(), everywhere]).to_csv(files["intervals"], index=False)
     log_champion(campaign, **files)
-    client = MlflowClient(campaign.tracking_uri)
+    client = client_of_store(campaign)
     run = client.get_run(client.get_model_version_by_alias(NAME, "champion").run_id)
     assert run.data.metrics["extrapolation/coverage_90"] == 0.75
     assert run.data.tags["interval_method"] == "scp_spread"

@@ -6,11 +6,10 @@ from pathlib import Path
 from typing import Any
 
 import pandas as pd
-from mlflow import MlflowClient
 
 from softkin.tracking import Campaign, log_dataset, log_intervals
 from softkin.tracking.store import PARENT
-from tests.unit.tracking.conftest import snapshot
+from tests.unit.tracking.conftest import client_of_store, snapshot
 
 
 def test_interval_runs_hang_on_their_model_and_are_logged_once(
@@ -33,7 +32,7 @@ def test_interval_runs_hang_on_their_model_and_are_logged_once(
     assert nested[0]["data"]["metrics"]["test/coverage_90"] == 0.91
     assert nested[0]["data"]["metrics"]["extrapolation/joint_coverage_90"] == 0.91
     assert "test/joint_winkler_mm_90" not in nested[0]["data"]["metrics"]
-    client = MlflowClient(campaign.tracking_uri)
+    client = client_of_store(campaign)
     pictures = client.list_artifacts(nested[0]["info"]["run_id"], "figures")
     assert [picture.path for picture in pictures] == ["figures/intervals_deployed.png"]
     log_intervals(

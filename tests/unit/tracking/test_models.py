@@ -10,19 +10,18 @@ from pathlib import Path
 from typing import Any
 
 import pandas as pd
-from mlflow import MlflowClient
 
 from softkin.core.files import read_json
 from softkin.core.samples import SUBSETS
 from softkin.tracking import Campaign, log_dataset, log_intervals
 from softkin.tracking.saved_view import TAG
 from softkin.tracking.store import CONTENT, KEY, PARENT
-from tests.unit.tracking.conftest import snapshot
+from tests.unit.tracking.conftest import client_of_store, snapshot
 
 
 def test_a_run_shows_its_parameters_metrics_history_data_and_files(campaign: Campaign, results: dict[str, Any]) -> None:
     logged = log_dataset(campaign, **results)
-    client = MlflowClient(campaign.tracking_uri)
+    client = client_of_store(campaign)
     run = client.get_run(logged["svr/tuned"])
     assert run.info.run_name == "finger · svr · tuned"
     assert run.info.status == "FINISHED"
@@ -45,7 +44,7 @@ def test_a_run_shows_its_parameters_metrics_history_data_and_files(campaign: Cam
 
 def test_a_run_shows_the_figures_that_show_it(campaign: Campaign, results: dict[str, Any]) -> None:
     logged = log_dataset(campaign, **results)
-    client = MlflowClient(campaign.tracking_uri)
+    client = client_of_store(campaign)
     shown = {name: {file.path for file in client.list_artifacts(run, "figures")} for name, run in logged.items()}
     assert shown == {
         "campaign": {"figures/distribution.png"},
@@ -78,7 +77,7 @@ def test_an_experiment_has_a_note_and_a_view_of_metrics_that_are_there(
     campaign: Campaign, results: dict[str, Any]
 ) -> None:
     logged = log_dataset(campaign, **results)
-    client = MlflowClient(campaign.tracking_uri)
+    client = client_of_store(campaign)
     tags = client.get_experiment_by_name("finger").tags
     assert "Nine rows of test stand in train" in tags["mlflow.note.content"]
     view = json.loads(tags[TAG])
@@ -117,7 +116,7 @@ def test_a_changed_result_replaces_its_run_and_no_other(campaign: Campaign, resu
 
 def test_a_run_cut_off_before_its_end_is_made_again(campaign: Campaign, results: dict[str, Any]) -> None:
     first = log_dataset(campaign, **results)
-    client = MlflowClient(campaign.tracking_uri)
+    client = client_of_store(campaign)
     client.delete_tag(first["svr/paper"], CONTENT)  # it is written last
     second = log_dataset(campaign, **results)
     assert second["svr/paper"] != first["svr/paper"]
@@ -140,7 +139,7 @@ def test_campaigns_stand_side_by_side(campaign: Campaign, results: dict[str, Any
 
 def test_keys_are_tags_that_can_be_searched(campaign: Campaign, results: dict[str, Any]) -> None:
     logged = log_dataset(campaign, **results)
-    run = MlflowClient(campaign.tracking_uri).get_run(logged["svr/paper"])
+    run = client_of_store(campaign).get_run(logged["svr/paper"])
     assert run.data.tags[KEY] == "nightly/finger/svr/paper"
     assert run.data.tags["leak"] == "true"
     assert "Nine rows of test stand in train" in run.data.tags["mlflow.note.content"]

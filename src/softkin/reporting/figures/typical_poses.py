@@ -1,4 +1,4 @@
-"""Pick typical poses: rows that stand for equal parts of all rows, by how large their error is beside their interval."""
+"""Pick typical poses: rows that stand for equal parts of all rows, ordered by their error beside their interval."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from softkin.core.samples import Array
 
-#: Each pose is near the middle of a quarter of the rows. Rows of nearly the same rank stand for the quarter just as well.
+#: Each pose is near the middle of a quarter of the rows; rows of nearly that rank stand for the quarter just as well.
 QUANTILES, NEAR = (0.125, 0.375, 0.625, 0.875), 0.06
 
 

@@ -43,5 +43,5 @@ def test_extrapolation_among_the_train_rows_is_a_finding(robot: dict[str, Sample
 def test_an_outer_shell_is_no_finding(n_commands: int) -> None:
     result = check(clean_robot(400, n_commands=n_commands, seed=1))
     assert not result.findings
-    assert result.numbers["extrapolation"]["share_off_hull"] == 1.0
+    assert result.numbers["extrapolation"]["share_outside_hull"] == 1.0
     assert result.numbers["extrapolation"]["norm_min"] >= result.numbers["train"]["norm_max"]

@@ -93,7 +93,7 @@ def test_the_elastica_under_a_tip_force(alpha_squared: float) -> None:
 def test_a_column_buckles_under_its_weight_where_greenhill_says() -> None:
     critical = 7.8373 * STIFF / LENGTH**3
     assert tip(ELASTICA, distributed_force=(0, 0, -0.995 * critical))[:2].tolist() == [0.0, 0.0]
-    with pytest.raises(ConfigError, match=r"row 0: no stable equilibrium reached[\s\S]*distributed_force[\s\S]*fix:"):
+    with pytest.raises(ConfigError, match=r"row 0: no stable equilibrium[\s\S]*distributed_force[\s\S]*fix:"):
         tip(ELASTICA, distributed_force=(0, 0, -1.005 * critical))
 
 

@@ -55,7 +55,7 @@ def interval_metrics() -> pd.DataFrame:
         ROBOTS, SCORED, MODELS, PRESETS, METHODS, LEVELS
     ):
         is_region, is_guaranteed = method.startswith("joint"), subset == "test"
-        key = {"dataset": dataset, "subset": subset, "model": model, "preset": preset}
+        key: dict[str, Any] = {"dataset": dataset, "subset": subset, "model": model, "preset": preset}
         key |= {"interval_method": method, "confidence_level": level}
         marginal = "marginal" if is_guaranteed else "no guarantee"
         # z is constant: it is always covered, and has no guarantee to keep.
@@ -109,7 +109,7 @@ def published_columns() -> pd.DataFrame:
 
 
 def published_intervals() -> pd.DataFrame:
-    row = {"dataset": "arm", "interval_method": "scp_mapie", "metric": "coverage", "printed": "0.90"}
+    row: dict[str, Any] = {"dataset": "arm", "interval_method": "scp_mapie", "metric": "coverage", "printed": "0.90"}
     row |= {"honest_value": 0.5, "honest_verdict": "lower", "nearest_value": 0.9, "nearest_verdict": "reproduced"}
     row |= {"nearest_coordinate": "m1_z", "nearest_model": "gb", "nearest_preset": "paper"}
     return pd.DataFrame([row]).assign(nearest_interval_method="cps", nearest_confidence_level=0.95, explanation="...")

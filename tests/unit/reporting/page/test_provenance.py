@@ -30,7 +30,7 @@ def test_commit_and_whether_it_is_all(tmp_path: Path) -> None:
     assert commit(tmp_path) == (head, False)
     (tmp_path / "file").write_text("two")
     assert commit(tmp_path) == (head, True)
-    assert commit(tmp_path / "results") is None  # a folder inside another's checkout
+    assert commit(tmp_path / "results") is None  # a folder within another checkout
 
 
 def test_versions_are_those_installed() -> None:

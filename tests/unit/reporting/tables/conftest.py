@@ -90,7 +90,8 @@ def write_dataset(folder: Path, dataset: str) -> DatasetFiles:
     write_json(folder / "dataset.json", description | {"n_markers": 1, "rows": dict.fromkeys(SUBSETS, 40)})
     card = {"dataset": dataset, "is_leaking": is_arm, "findings": [LEAK] if is_arm else []}
     write_json(folder / "data_card.json", card)
-    return DatasetFiles(*(folder / f"{name}.csv" for name in CSV), folder / "dataset.json", folder / "data_card.json")
+    names = (*(f"{name}.csv" for name in CSV), "dataset.json", "data_card.json")
+    return DatasetFiles(*(folder / name for name in names))
 
 
 def write_run(folder: Path) -> Run:

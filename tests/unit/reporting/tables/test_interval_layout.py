@@ -20,7 +20,7 @@ def metrics(leak: bool = False) -> pd.DataFrame:
     for (place, (model, preset)), (method, guarantee, winkler), level, subset, coordinate in itertools.product(
         enumerate(RUNS), methods, (0.8, 0.9), ("test", "extrapolation"), ("m1_x", "mean_informative", "joint")
     ):
-        key = {"dataset": "arm", "model": model, "preset": preset, "interval_method": method}
+        key: dict[str, object] = {"dataset": "arm", "model": model, "preset": preset, "interval_method": method}
         key |= {"confidence_level": level, "subset": subset, "coordinate": coordinate}
         values = {"coverage": level + 0.012, "mean_width_mm": 3.0 + place, "winkler_mm": winkler + place}
         rows.append(key | values | {"guarantee": guarantee, "leak": leak})

@@ -57,9 +57,15 @@ def test_latex_is_balanced_and_escaped() -> None:
 
 
 def test_table_2_shows_our_sizes_beside_the_printed_ones() -> None:
-    about = {"dataset": "finger", "title": "FINGER", "n_commands": 2, "n_markers": 1, "rows": {"train": 704, "test": 9}}
+    description = {
+        "dataset": "finger",
+        "title": "FINGER",
+        "n_commands": 2,
+        "n_markers": 1,
+        "rows": {"train": 704, "test": 9},
+    }
     published = pd.read_csv(HOUSE / "resources" / "published" / "subsets.csv")
-    text = subset_table([about], published).markdown()
+    text = subset_table([description], published).markdown()
     assert "| train | 704 | 704 | 2 | 3 |" in text
     assert "| test | 9 | 89 | 2 | 3 |" in text
 

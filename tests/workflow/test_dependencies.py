@@ -1,0 +1,135 @@
+"""What a rule depends on: every module that its script loads, and what an edited module makes to be run again."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from softkin.core.imported_code import CHOSEN_FROM, WITHOUT_EFFECT, file_of, imported_code, imported_modules
+from tests.conftest import HOUSE
+from tests.workflow.conftest import House, copy_house
+
+SCRIPTS = sorted((HOUSE / "workflow" / "scripts").glob("*.py"))
+ENTRIES = sorted(path for registry in CHOSEN_FROM for path in file_of(registry).parent.glob("[!_]*.py"))
+
+
+@pytest.fixture(scope="module")
+def loaded() -> dict[str, set[str]]:
+    """The modules that every script, and every entry of a registry, loads by running its imports."""
+    left_out = ",".join(["softkin", *CHOSEN_FROM])
+    command = [sys.executable, str(Path(__file__).with_name("loading.py")), left_out, *map(str, [*SCRIPTS, *ENTRIES])]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return {source: set(modules) - set(WITHOUT_EFFECT) for source, modules in json.loads(done.stdout).items()}
+
+
+def module_of(path: Path) -> str:
+    place = path.relative_to(file_of("softkin").parents[1]).with_suffix("")
+    return ".".join(place.parts).removesuffix(".__init__")
+
+
+@pytest.mark.parametrize("source", [*SCRIPTS, *ENTRIES], ids=lambda path: f"{path.parent.name}/{path.stem}")
+def test_the_code_of_a_rule_is_what_its_script_loads(source: Path, loaded: dict[str, set[str]]) -> None:
+    """No more and no less, but for modules without effect and for entries that are inputs by themselves."""
+    closure = {module_of(path) for path in imported_code(source) if path != source}
+    assert closure == loaded[str(source)]
+
+
+def test_modules_without_effect_import_no_others() -> None:
+    for module in WITHOUT_EFFECT:
+        assert set(imported_modules(file_of(module))) <= set(WITHOUT_EFFECT), module
+
+
+MODELS = ("lr", "svr", "huber")
+CONFIGURATION = f"""
+datasets: [finger]
+models: [{", ".join(MODELS)}]
+interval_methods: [qr, scp_mapie, scp_crepes, cv_plus, rolling_shells]
+"""
+#: What follows from rules: the tables and what is made of them.
+TABLES = {"build_tables", "draw_campaign_figures", "build_report"}
+SCORED = {"score_intervals", "score_extrapolation", "build_calibrated_model", "draw_figures", "track"} | TABLES
+CALIBRATED = {"calibrate_intervals"} | SCORED
+REFITS = {"refit", "refit_shells", "refit_spaces"}
+FITTED = {"predict", "score_points"} | REFITS | CALIBRATED
+TUNED = {"tune", "fit_tuned"} | FITTED
+QUANTILES = {"tune_quantiles", "fit_quantiles"}
+ALL = {"prepare", "audit", "fit_paper"} | QUANTILES | TUNED
+#: A module of each package -> the rules that run again when it is edited.
+RERUN = {
+    "core/errors.py": set(),
+    "core/folds.py": {"tune", "tune_quantiles", "fit_tuned", "fit_quantiles"} | FITTED,
+    "core/metrics/pinball.py": QUANTILES | CALIBRATED,
+    "data/readers/published_json.py": ALL,
+    "data/readers/table_file.py": set(),
+    "data/audit/stuck_poses.py": {"audit", "draw_figures", "track"} | TABLES,
+    "models/svr.py": {"fit_paper"} | TUNED,
+    "models/gaussian_process.py": set(),
+    "models/target_spaces/curvature.py": {"fit_paper"} | TUNED,
+    "models/quantile/gradient_boosting.py": QUANTILES | CALIBRATED,
+    "training/refit.py": {"refit"} | CALIBRATED,
+    "uncertainty/intervals/split_conformal_crepes.py": CALIBRATED,
+    "uncertainty/regions/box.py": {"score_intervals", "draw_figures", "track"} | TABLES,
+    "uncertainty/labelled/adaptive.py": {"score_extrapolation", "draw_figures", "track"} | TABLES,
+    "evaluation/score_points.py": {"score_points", "draw_figures", "track"} | TABLES,
+    "reporting/tables/published.py": TABLES,
+    "reporting/figures/ranking.py": {"draw_figures", "draw_campaign_figures", "build_report", "track"},
+    "reporting/page/headline.py": {"build_report"},
+    "tracking/served_model.py": {"track"},
+    "cli/watching/view.py": set(),
+}
+
+
+@dataclass(frozen=True)
+class Finished:
+    """A copy of the repository with the files of a finished run, all empty, and its configuration."""
+
+    house: House
+    configuration: Path
+
+    def jobs_after_editing(self, module: str) -> list[tuple[str, str]]:
+        """(rule, wildcards) of what a run would do now."""
+        file = self.house.root / "src" / "softkin" / module
+        before = file.stat()
+        os.utime(file)
+        try:
+            return self.house.jobs(self.configuration)
+        finally:
+            os.utime(file, ns=(before.st_atime_ns, before.st_mtime_ns))
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory: pytest.TempPathFactory, mirror: Path) -> Finished:
+    folder = tmp_path_factory.mktemp("finished")
+    copy_house(folder / "house")
+    work, configuration = folder / "work", folder / "configuration.yaml"
+    configuration.write_text(CONFIGURATION)
+    house = House(folder / "house", work, mirror)
+    planned = house.snakemake("--dry-run", more=configuration)
+    assert planned.returncode == 0, planned.stdout + planned.stderr
+    for line in map(str.strip, planned.stdout.splitlines()):
+        kind, _, paths = line.partition(": ")
+        for path in paths.split(", ") if kind in ("output", "benchmark") else ():
+            made = work / path
+            made.parent.mkdir(parents=True, exist_ok=True)
+            if made.name == "figures":
+                made.mkdir()
+            else:
+                made.touch()
+    return Finished(house, configuration)
+
+
+def test_nothing_is_to_be_done_when_nothing_is_edited(finished: Finished) -> None:
+    assert finished.house.jobs(finished.configuration) == []
+
+
+@pytest.mark.parametrize("module", RERUN)
+def test_an_edited_module_reruns_what_it_decides_and_nothing_else(module: str, finished: Finished) -> None:
+    jobs = finished.jobs_after_editing(module)
+    assert {rule for rule, _ in jobs} == RERUN[module]
