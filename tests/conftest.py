@@ -11,18 +11,25 @@ from typing import Any
 import numpy as np
 import pytest
 import yaml
+from hypothesis import settings
 
 from softkin.core.samples import SUBSETS, Samples
 from softkin.data.table import to_table, write_table
+
+# How long an example takes says nothing of a law: a loaded machine is slow.
+settings.register_profile("softkin", deadline=None)
+settings.load_profile("softkin")
 
 HOUSE = Path(__file__).parent.parent
 KEYS = {"train": "train", "validation": "val", "test": "test", "extrapolation": "ext"}
 
 
-def bending_arm(n_rows: int, n_commands: int = 2, n_markers: int = 1, seed: int = 0, reach: float = 1.0) -> Samples:
+def bending_arm(
+    n_rows: int, n_commands: int = 2, n_markers: int = 1, seed: int = 0, largest_command: float = 1.0
+) -> Samples:
     """Constant-curvature arcs, 100 mm long, noise 0.1 mm; the first of several markers is the base and never moves."""
     rng = np.random.default_rng(seed)
-    commands = rng.uniform(-reach, reach, (n_rows, n_commands))
+    commands = rng.uniform(-largest_command, largest_command, (n_rows, n_commands))
     first, second = commands[:, 0], commands[:, -1]
     bend = np.hypot(first, second) + 1e-9
     positions = []
@@ -48,7 +55,7 @@ def published_json(subsets: dict[str, Samples], factor: float = 1.0) -> dict[str
 
 def four_subsets(sizes: dict[str, int], **arm: int) -> dict[str, Samples]:
     return {
-        subset: bending_arm(size, seed=place, reach=1.5 if subset == "extrapolation" else 1.0, **arm)
+        subset: bending_arm(size, seed=place, largest_command=1.5 if subset == "extrapolation" else 1.0, **arm)
         for place, (subset, size) in enumerate(sizes.items())
     }
 

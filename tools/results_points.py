@@ -83,14 +83,14 @@ def _best_of_columns(run: FinishedRun, columns: pd.DataFrame) -> str:
 
 
 def points_in_extrapolation(run: FinishedRun) -> dict[str, Any]:
-    """The deployed models in extrapolation, how well scores on `train` foretold them, what target spaces are worth."""
+    """The deployed models in extrapolation, how well scores on `train` ranked them, what target spaces are worth."""
     deployed = run.tables.deployed_in_extrapolation()
     studies = run.tables.read("searched_runs")["target_space"]
     ratios = run.tables.space_ratios()
     return {
         "deployed": _deployed(run, deployed),
         "n_robots": len(deployed),
-        "n_foretold": int((deployed["shell_rank_correlation"] > deployed["cv_rank_correlation"]).sum()),
+        "n_ranked_by_shells": int((deployed["shell_rank_correlation"] > deployed["cv_rank_correlation"]).sum()),
         "n_studies": len(studies),
         "n_curvature": int((studies == "curvature").sum()),
         "n_ratios": int(ratios.notna().sum().sum()),

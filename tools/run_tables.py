@@ -45,7 +45,7 @@ class RunTables:
         return selection.loc[selection["deployed"], [*RUN, "target_space"]]
 
     def deployed_in_extrapolation(self) -> pd.DataFrame:
-        """Errors (mm) of the deployed runs in extrapolation; how well scores on `train` foretold it."""
+        """Errors (mm) of the deployed runs in extrapolation; how well scores on `train` ranked them."""
         scores = self.read("point_metrics")
         errors = scores.loc[scores["subset"] == EXTRAPOLATION, [*RUN, "rmse_mm", "mae_mm"]]
         ranks = self.read("searched_runs").groupby("dataset")[["shell_rank_correlation", "cv_rank_correlation"]].first()

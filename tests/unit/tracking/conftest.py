@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sqlite3
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -24,11 +26,21 @@ DESCRIPTION = {
 }
 
 
+@pytest.fixture(scope="session")
+def empty_store(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A store without a run: making one takes seconds, copying it none."""
+    path = tmp_path_factory.mktemp("store") / "mlflow.db"
+    create_store(f"sqlite:///{path}")
+    return path
+
+
 @pytest.fixture
-def campaign(tmp_path: Path) -> Campaign:
-    uri = f"sqlite:///{tmp_path / 'mlflow.db'}"
-    create_store(uri)
-    return Campaign("nightly", seed=5, tracking_uri=uri, artifacts=str(tmp_path / "artifacts"))
+def campaign(tmp_path: Path, empty_store: Path) -> Campaign:
+    """A campaign on a store of its own."""
+    path = tmp_path / "mlflow.db"
+    with closing(sqlite3.connect(empty_store)) as empty, closing(sqlite3.connect(path)) as copy:
+        empty.backup(copy)
+    return Campaign("nightly", seed=5, tracking_uri=f"sqlite:///{path}", artifacts=str(tmp_path / "artifacts"))
 
 
 @pytest.fixture

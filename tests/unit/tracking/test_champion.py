@@ -18,7 +18,7 @@ import pytest
 from mlflow.exceptions import MlflowException
 
 from softkin.core.files import write_json
-from softkin.tracking import Campaign, create_store, log_champion
+from softkin.tracking import Campaign, log_champion
 from softkin.tracking.store import PARENT
 from tests.conftest import bending_arm
 from tests.unit.tracking.conftest import client_of_store
@@ -27,13 +27,11 @@ from tests.unit.tracking.robots import DESCRIPTION, champion_files, interval_met
 NAME = "softkin-finger"
 
 
-@pytest.fixture
-def campaign(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Campaign:
-    uri = f"sqlite:///{tmp_path / 'mlflow.db'}"
-    monkeypatch.setenv("MLFLOW_TRACKING_URI", uri)
+@pytest.fixture(autouse=True)
+def registry(campaign: Campaign, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Models are loaded from the store of the test."""
+    monkeypatch.setenv("MLFLOW_TRACKING_URI", campaign.tracking_uri)
     monkeypatch.setattr(sys, "path", [*sys.path])  # loading a model adds its code to it
-    create_store(uri)
-    return Campaign("nightly", seed=5, tracking_uri=uri, artifacts=str(tmp_path / "artifacts"))
 
 
 @pytest.fixture

@@ -79,7 +79,7 @@ def test_it_covers_new_rows(files: Path, method: str) -> None:
 def test_in_extrapolation_intervals_are_made_from_shells(files: Path) -> None:
     """In-domain they are the chosen method's; in extrapolation never narrower, and wide enough where that is not."""
     plain, robot = built(files, "scp_spread"), built(files, "scp_spread", in_extrapolation="auto")
-    far = bending_arm(400, n_markers=2, seed=9, reach=1.6)
+    far = bending_arm(400, n_markers=2, seed=9, largest_command=1.6)
     out = robot.is_outside(far.commands)
     assert 100 < out.sum() < 350
     assert out[np.linalg.norm(far.commands, axis=1) > np.sqrt(2)].all()

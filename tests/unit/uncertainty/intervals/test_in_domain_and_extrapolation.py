@@ -66,7 +66,7 @@ def process(train: Samples) -> Any:
 def coverage_of_a_noisy_arm(seed: int) -> list[float]:
     """Of the method and of split conformal prediction, in extrapolation at 90 %."""
     train, validation = (bending_arm(150, seed=10 * seed + place) for place in (0, 1))
-    far = bending_arm(300, seed=10 * seed + 2, reach=1.6)
+    far = bending_arm(300, seed=10 * seed + 2, largest_command=1.6)
     norm, whole = command_norm(train.commands, standardised=False).of, process(train)
     shells = []
     for core, shell in outer_shells(norm(train.commands), (0.6, 0.7, 0.8, 0.9)):
