@@ -11,7 +11,7 @@ from softkin.core.runs import PRESETS
 from softkin.core.samples import EXTRAPOLATION, SUBSETS
 from softkin.data.audit.findings import LEAK
 from softkin.reporting.tables.numbers import number_text
-from softkin.reporting.tables.published import BETTER, REPRODUCED, WORSE
+from softkin.reporting.tables.verdicts import BETTER, REPRODUCED, WORSE
 from tools.finished_run import TITLES, FinishedRun, table
 
 METRICS = {"rmse_mm": "RMSE (mm)", "mae_mm": "MAE (mm)", "r2": "R2", "mape_percent": "MAPE (%)"}

@@ -13,6 +13,7 @@ import yaml
 from mlflow import MlflowClient
 
 from softkin.core.files import read_json
+from softkin.core.run_archive import read_run_archive
 from softkin.core.runs import PRESETS, SEARCHED
 from softkin.core.samples import SUBSETS
 from softkin.models import MODELS
@@ -168,9 +169,9 @@ def test_the_store_holds_a_child_run_per_model_and_preset(house: House) -> None:
         # SCP by two engines and by distance, and regions, around every run; SCP by spread and the model's own interval
         # around models that have one; CV+ around cheap models, QR and CQR by quantile regressors, in two presets each;
         # two methods calibrated on shells, around the paper's run, the chosen one and the robust one.
-        with np.load(house.work / "results" / dataset / "shells.npz") as archive:
-            on_shells = {name.rsplit("/", 1)[0] for name in archive.files if "/" in name}
-        assert {"gb/paper", "huber/outer"} <= on_shells
+        archive = read_run_archive(house.work / "results" / dataset / "shells.npz")
+        on_shells = {run for run, _ in archive.of_runs}
+        assert {("gb", "paper"), ("huber", "outer")} <= on_shells
         assert len(on_shells) <= 3
         around_models = 4 * len(POOL) * 3 + (len(WITH_SPREAD) + len(PREDICTIVE)) * 3 + len(CHEAP) * 2
         of_regressors = 2 * 2 * len(SMALL["quantile_models"])

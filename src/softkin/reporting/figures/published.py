@@ -11,7 +11,7 @@ import pandas as pd
 from softkin.core.runs import PRESETS
 from softkin.reporting.figures.spec import CampaignResults, FigureSpec
 from softkin.reporting.figures.style import BLACK, PAGE, panels
-from softkin.reporting.tables.published import REPRODUCED
+from softkin.reporting.tables.verdicts import REPRODUCED
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

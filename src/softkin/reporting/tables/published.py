@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import math
-from decimal import Decimal
 from pathlib import Path
 
 import pandas as pd
 
 from softkin.core.metrics.point import LARGER_IS_BETTER
 from softkin.core.runs import PAPER, PRESETS, TUNED
+from softkin.reporting.tables.verdicts import BETTER, REPRODUCED, verdict
 
-REPRODUCED, BETTER, WORSE = VERDICTS = ("reproduced", "better", "worse")
 KEY = ["dataset", "subset", "model"]
 
 
@@ -19,23 +18,6 @@ def read_published(path: str | Path) -> pd.DataFrame:
     """The printed cells in long form: dataset, subset, model, metric, printed (text, as printed)."""
     wide = pd.read_csv(path, dtype=str)
     return wide.melt(id_vars=KEY, value_vars=list(LARGER_IS_BETTER), var_name="metric", value_name="printed")
-
-
-def unit(printed: str) -> float:
-    """One unit of the last printed digit: 0.01 of '2.89', 1e-5 of '5.57e-3'."""
-    exponent = Decimal(printed).as_tuple().exponent
-    assert isinstance(exponent, int)  # a finite number, not NaN or infinity
-    return float(Decimal(1).scaleb(exponent))
-
-
-def verdict(printed: str, ours: float, metric: str) -> str:
-    """`reproduced` when `ours` lies within one unit of the last printed digit (the paper truncates as often as it
-    rounds), else `better` or `worse`.
-    """
-    difference = ours - float(printed)
-    if abs(difference) <= unit(printed) * (1 + 1e-9):
-        return REPRODUCED
-    return BETTER if (difference > 0) == LARGER_IS_BETTER[metric] else WORSE
 
 
 def compare(published: pd.DataFrame, point: pd.DataFrame, notes: dict[tuple[str, str], str]) -> pd.DataFrame:

@@ -13,7 +13,7 @@ from softkin.core.samples import TEST
 from softkin.models.spec import PAPERS_RUN
 from softkin.reporting.tables.numbers import NOTHING, number_text
 from softkin.reporting.tables.paper_layout import PaperTable
-from softkin.reporting.tables.published import unit
+from softkin.reporting.tables.verdicts import unit
 from softkin.reporting.titles import Titles
 
 KEY = ["dataset", "interval_method"]
