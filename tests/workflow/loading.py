@@ -82,7 +82,9 @@ def loaded(source: str) -> list[str]:
     while waiting := {Path(source), *map(file_of, found())} - read:
         for file in waiting:
             for statement in imports(ast.parse(file.read_text()), of_softkin=True):
-                exec(ast.unparse(statement), {})
+                is_package = getattr(statement, "module", None) in packages
+                if is_package or getattr(statement, "module", None) not in LEFT_OUT:
+                    exec(ast.unparse(statement), {})
         read |= waiting
     return found()
 

@@ -21,9 +21,10 @@ WITHOUT_EFFECT = {
     "softkin.core.files": "how a file is put in place, whatever it holds",
     "softkin.core.job": "log and stopwatch of a job",
 }
-#: Registries of which a rule uses the entries that the configuration or a wildcard names: these are inputs by
-#: themselves, the others are none.
+#: Modules that a rule uses only where the configuration or a wildcard names them: registries, of whose entries the named
+#: ones are inputs by themselves, and the cleaning of rows.
 CHOSEN_FROM = {
+    "softkin.data.audit.cleaning",
     "softkin.data.readers",
     "softkin.models",
     "softkin.models.quantile",
