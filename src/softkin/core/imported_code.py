@@ -21,8 +21,8 @@ WITHOUT_EFFECT = {
     "softkin.core.files": "how a file is put in place, whatever it holds",
     "softkin.core.job": "log and stopwatch of a job",
 }
-#: Modules that a rule uses only where the configuration or a wildcard names them: registries, of whose entries the named
-#: ones are inputs by themselves, and the cleaning of rows.
+#: Modules that a rule uses only where the configuration or a wildcard names them: registries, whose named entries are
+#: inputs by themselves, and the cleaning of rows.
 CHOSEN_FROM = {
     "softkin.data.audit.cleaning",
     "softkin.data.readers",
