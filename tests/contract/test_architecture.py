@@ -179,8 +179,8 @@ def test_functions_stay_short_and_take_few_parameters() -> None:
     for path in [*FILES, *SCRIPTS, *(HOUSE / "tools").rglob("*.py")]:
         for node in ast.walk(ast.parse(path.read_text())):
             if isinstance(node, ast.FunctionDef):
-                given = [*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs]
-                parameters = [parameter for parameter in given if parameter.arg not in ("self", "cls")]
+                arguments = [*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs]
+                parameters = [parameter for parameter in arguments if parameter.arg not in ("self", "cls")]
                 assert len(parameters) <= 8, f"{path}: {node.name}"
                 assert node.end_lineno is not None
                 assert node.end_lineno - node.lineno < 60, f"{path}: {node.name}"

@@ -67,9 +67,9 @@ def brings_small_spreads_back_to_first_order(_name: str, space: TargetSpace) -> 
         targets = np.tile(target, (4000, 1))
         spread = np.broadcast_to(1e-3 * rng.uniform(0.5, 2.0, len(target)), targets.shape)
         expected = transformer.inverse_transform(targets + spread * rng.standard_normal(targets.shape)).std(axis=0)
-        found = transformer.inverse_spread(targets[:1], spread[:1])
-        assert found.shape == (1, 9)
-        np.testing.assert_allclose(found[0], expected, rtol=0.1, atol=1e-9)
+        spread_mm = transformer.inverse_spread(targets[:1], spread[:1])
+        assert spread_mm.shape == (1, 9)
+        np.testing.assert_allclose(spread_mm[0], expected, rtol=0.1, atol=1e-9)
 
 
 def repeats_itself_and_changes_nothing(_name: str, space: TargetSpace) -> None:

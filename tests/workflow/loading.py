@@ -3,7 +3,7 @@
     python tests/workflow/loading.py LEFT_OUT SOURCE...
 
 Prints as JSON, for each source, the modules that a fresh process has loaded. A package counts where a name is imported
-from it, not where it is passed on the way to one of its modules; those of LEFT_OUT, parted by commas, are never run.
+from it, not where it is passed on the way to one of its modules. Those of LEFT_OUT, parted by commas, are never run.
 """
 
 from __future__ import annotations
@@ -74,19 +74,19 @@ def loaded(source: str) -> list[str]:
 
     builtins.__import__ = watched_import  # type: ignore[assignment]  # the same signature, its defaults aside
 
-    def found() -> list[str]:
+    def names_loaded() -> list[str]:
         names = [name for name in sys.modules if name.split(".")[0] == "softkin"]
         return sorted(name for name in names if name not in packages or packages[name].is_run)
 
+    never_loaded = set(LEFT_OUT) - set(packages)
     read: set[Path] = set()
-    while waiting := {Path(source), *map(file_of, found())} - read:
+    while waiting := {Path(source), *map(file_of, names_loaded())} - read:
         for file in waiting:
             for statement in imports(ast.parse(file.read_text()), of_softkin=True):
-                is_package = getattr(statement, "module", None) in packages
-                if is_package or getattr(statement, "module", None) not in LEFT_OUT:
+                if getattr(statement, "module", None) not in never_loaded:
                     exec(ast.unparse(statement), {})
         read |= waiting
-    return found()
+    return names_loaded()
 
 
 def main(sources: list[str]) -> None:
