@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import logging
-import warnings
 from typing import Any, Self
 
 import numpy as np
 from scipy.linalg import LinAlgError
 from scipy.optimize import minimize
 from sklearn.base import BaseEstimator, RegressorMixin
-from sklearn.exceptions import ConvergenceWarning
 from sklearn.gaussian_process import GaussianProcessRegressor
 from sklearn.gaussian_process.kernels import (
     RBF,
@@ -24,6 +22,7 @@ from sklearn.gaussian_process.kernels import (
 )
 
 from softkin.core.samples import Array
+from softkin.models.estimators.kernel_likelihood import SHAPES, TREND_TERMS, Likelihood, Linear
 
 logger = logging.getLogger("softkin")
 
@@ -77,11 +76,7 @@ class BoundedGaussianProcess(RegressorMixin, BaseEstimator):  # type: ignore[mis
         if len(rows) > self.learning_rows:
             rng = np.random.default_rng(self.random_state)
             rows = np.sort(rng.choice(rows, self.learning_rows, replace=False))
-        with warnings.catch_warnings():
-            # A length scale at its bound (a command without influence) is an answer, not a failure.
-            warnings.simplefilter("ignore", ConvergenceWarning)
-            learnt = _factorised(self._kernel(X.shape[1]), self._optimizer, X[rows], y[rows])
-        self.posterior_ = _factorised(learnt.kernel_, None, X, y)
+        self.posterior_ = _conditioned(self._learnt_kernel(X[rows], y[rows].reshape(len(rows), -1)), X, y)
         return self
 
     def predict(self, X: Array) -> Array:
@@ -116,21 +111,43 @@ class BoundedGaussianProcess(RegressorMixin, BaseEstimator):  # type: ignore[mis
         kernel = ConstantKernel() * shapes[self.kernel]() + WhiteKernel(self.initial_noise, NOISE_BOUNDS)
         return kernel if self.trend == "none" else trends[self.trend]() + kernel
 
-    def _optimizer(self, objective: Any, start: Array, bounds: Array) -> tuple[Array, float]:
-        """L-BFGS-B on the objective per observation.
+    def _terms(self, X: Array) -> list[Any]:
+        """The terms of the likelihood that `_kernel` is the sum of, but for the noise."""
+        if self.trend == "paper_linear":
+            return [Linear(X)]
+        return [*(term(X) for term in TREND_TERMS[self.trend]), SHAPES[self.kernel](X)]
 
-        Unscaled, the gradient grows with the number of rows and the first step of a bounded problem lands on the
-        bounds, where the kernel is singular and the search gives up (seen with scipy 1.17).
+    def _learnt_kernel(self, X: Array, y: Array) -> Kernel:
+        """The kernel of largest likelihood, with the smallest jitter that lets its matrix be factorised.
+
+        L-BFGS-B minimises the objective per observation. Unscaled, the gradient grows with the number of rows and the
+        first step of a bounded problem lands on the bounds, where the kernel is singular and the search gives up (seen
+        with scipy 1.17).
         """
+        kernel, terms = self._kernel(X.shape[1]), self._terms(X)
+        for jitter in JITTERS:
+            objective = Likelihood(terms, y, jitter)
+            scale = max(1.0, abs(objective(kernel.theta)[0]))
+            scale = scale if np.isfinite(scale) else 1.0
 
-        def scaled(theta: Array) -> tuple[float, Array]:
-            value, gradient = objective(theta)
-            return (value / scale, gradient / scale) if np.isfinite(value) else (SINGULAR, gradient)
+            def scaled(theta: Array, objective: Likelihood = objective, scale: float = scale) -> tuple[float, Array]:
+                value, gradient = objective(theta)
+                return (value / scale, gradient / scale) if np.isfinite(value) else (SINGULAR, gradient)
 
-        scale = max(1.0, abs(float(objective(start)[0])))
-        options = {"maxiter": self.max_iter}
-        optimum = minimize(scaled, start, method="L-BFGS-B", jac=True, bounds=bounds, options=options)
-        return optimum.x, optimum.fun * scale
+            options = {"maxiter": self.max_iter}
+            found = minimize(scaled, kernel.theta, method="L-BFGS-B", jac=True, bounds=kernel.bounds, options=options)
+            if np.isfinite(objective(found.x)[0]):
+                return kernel.clone_with_theta(found.x)
+        raise _singular(kernel)
+
+
+class _Posterior(GaussianProcessRegressor):  # type: ignore[misc]
+    """scikit-learn's regressor at a kernel that is learnt: its likelihood, a second factor of the same matrix, is not
+    computed.
+    """
+
+    def log_marginal_likelihood(self, *args: Any, **kwargs: Any) -> float:  # noqa: ARG002 (scikit-learn's signature)
+        return float("nan")
 
 
 def _parts(X: Array) -> list[Array]:
@@ -138,11 +155,15 @@ def _parts(X: Array) -> list[Array]:
     return np.array_split(X, max(1, -(-len(X) // ROWS_AT_ONCE)))
 
 
-def _factorised(kernel: Kernel, optimizer: Any, X: Array, y: Array) -> GaussianProcessRegressor:
-    """Fit with the smallest jitter that lets the Cholesky factorisation succeed."""
+def _conditioned(kernel: Kernel, X: Array, y: Array) -> GaussianProcessRegressor:
+    """The posterior with the smallest jitter that lets the kernel's matrix be factorised."""
     for jitter in JITTERS:
         try:
-            return GaussianProcessRegressor(kernel, alpha=jitter, optimizer=optimizer).fit(X, y)
+            return _Posterior(kernel, alpha=jitter, optimizer=None).fit(X, y)
         except LinAlgError:
             logger.debug("kernel %s is not positive definite with jitter %g", kernel, jitter)
-    raise LinAlgError(f"kernel {kernel} is not positive definite, even with jitter {JITTERS[-1]} on its diagonal")
+    raise _singular(kernel)
+
+
+def _singular(kernel: Kernel) -> LinAlgError:
+    return LinAlgError(f"kernel {kernel} is not positive definite, even with jitter {JITTERS[-1]} on its diagonal")
