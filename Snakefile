@@ -1,8 +1,7 @@
 # softkin: from published data to a calibrated forward kinematics. `snakemake --cores 2` is all it takes.
 #
-#     retrieve -> prepare -> tune -> fit -> predict -> score -> tables -> report
-#                    |         |       \-> refit -\-> calibrate -> score, figures -> track (MLflow)
-#                    \-> audit \-> tune and fit quantiles -/
+#     retrieve -> prepare -> fit (tune, fit, predict) -> refit -> calibrate -> score -> tables -> report
+#                    \-> audit                                                   \-> figures -> track (MLflow)
 from pathlib import Path
 
 from snakemake.utils import min_version
@@ -23,9 +22,7 @@ include: "workflow/rules/deciding_code.smk"
 include: "workflow/rules/retrieve.smk"
 include: "workflow/rules/prepare.smk"
 include: "workflow/rules/audit.smk"
-include: "workflow/rules/tune.smk"
 include: "workflow/rules/fit.smk"
-include: "workflow/rules/predict.smk"
 include: "workflow/rules/refit.smk"
 include: "workflow/rules/calibrate.smk"
 include: "workflow/rules/score.smk"

@@ -14,9 +14,11 @@ from mlflow import MlflowClient
 
 from softkin.core.files import read_json
 from softkin.core.run_archive import read_run_archive
-from softkin.core.runs import PRESETS, SEARCHED
+from softkin.core.runs import PRESETS, SEARCHED, Run
 from softkin.core.samples import SUBSETS
 from softkin.models import MODELS
+from softkin.models.spec import PAPERS_RUN
+from softkin.training.refit import FOLDS
 from softkin.uncertainty.calibration_data import (
     CalibrationData,
     FoldCalibration,
@@ -35,13 +37,21 @@ pytestmark = pytest.mark.timeout(600)
 DATASETS = ("elastica_2023_09", "finger")
 SMALL = yaml.safe_load((HOUSE / "config" / "test.yaml").read_text())
 POOL = {name: MODELS[name] for name in SMALL["models"]}
-CHEAP = [name for name, spec in POOL.items() if spec.is_cheap]
 WITH_SPREAD = [name for name, spec in POOL.items() if spec.spread]
 PREDICTIVE = [name for name, spec in POOL.items() if spec.is_predictive]
-INTERVAL_STAGES = {
-    *("calibrate_intervals", "score_intervals", "score_extrapolation"),
-    *("draw_figures", "build_calibrated_model"),
-}
+
+
+def refitted_runs(house: House, dataset: str) -> set[Run]:
+    """The runs that were refitted on folds: the paper's, and the chosen one where its model is cheap."""
+    results = house.work / "results"
+    selection = pd.read_csv(results / "tables" / "selection.csv")
+    (chosen,) = selection[(selection["dataset"] == dataset) & selection["deployed"]].itertuples()
+    wanted = {PAPERS_RUN} | ({Run(chosen.model, chosen.preset)} if POOL[chosen.model].is_cheap else set())
+    archive = read_run_archive(results / dataset / "refits.npz")
+    assert {run for run, part in archive.of_runs if part == FOLDS} == wanted
+    return wanted
+
+
 TIMINGS = ["fit_seconds", "predict_us_per_row"]
 
 
@@ -99,11 +109,13 @@ def test_interval_metrics_have_a_row_for_everything(house: House) -> None:
         PredictiveCalibration: presets * len(PREDICTIVE),
         # In the presets paper and tuned only:
         QuantileCalibration: 2 * len(SMALL["quantile_models"]),
-        FoldCalibration: 2 * len(CHEAP),
     }
     on_shells = [name for name in SMALL["interval_methods"] if INTERVAL_METHODS[name].calibrated_on is ShellCalibration]
     assert len({rows.pop(name) for name in on_shells}) == 1
-    rest = [name for name in SMALL["interval_methods"] if name not in on_shells]
+    refitted = [name for name in SMALL["interval_methods"] if INTERVAL_METHODS[name].calibrated_on is FoldCalibration]
+    n_refitted = sum(len(refitted_runs(house, dataset)) for dataset in DATASETS)
+    assert {rows.pop(name) for name in refitted} == {2 * n_refitted * 6 * 3}
+    rest = [name for name in SMALL["interval_methods"] if name not in {*on_shells, *refitted}]
     expected = {name: 2 * 2 * n_runs[INTERVAL_METHODS[name].calibrated_on] * 6 * 3 for name in rest}
     assert rows == expected | dict.fromkeys(SMALL["regions"], 2 * 2 * runs * 3)
     engines = table[table["interval_method"].str.startswith("scp")].pivot(
@@ -156,7 +168,7 @@ def test_the_profile_is_found_without_being_named(house: House) -> None:
 
 def test_every_job_left_its_log(house: House) -> None:
     logs = {path.relative_to(house.work / "results" / "logs") for path in (house.work / "results").rglob("*.log")}
-    assert {Path("tune/finger/mlp.log"), Path("predict/finger/gp.log"), Path("track/finger.log")} <= logs
+    assert {Path("fit_model/finger/mlp.log"), Path("calibrate/finger.log"), Path("track/finger.log")} <= logs
 
 
 def test_the_store_holds_a_child_run_per_model_and_preset(house: House) -> None:
@@ -167,13 +179,15 @@ def test_the_store_holds_a_child_run_per_model_and_preset(house: House) -> None:
         runs = client.search_runs([experiment.experiment_id], max_results=1000)
         nested = [run for run in runs if run.data.tags["kind"] == "intervals"]
         # SCP by two engines and by distance, and regions, around every run; SCP by spread and the model's own interval
-        # around models that have one; CV+ around cheap models, QR and CQR by quantile regressors, in two presets each;
+        # around models that have one; CV+ around refitted ones; QR and CQR by quantile regressors, in two presets;
         # two methods calibrated on shells, around the paper's run, the chosen one and the robust one.
         archive = read_run_archive(house.work / "results" / dataset / "shells.npz")
         on_shells = {run for run, _ in archive.of_runs}
         assert {("gb", "paper"), ("huber", "outer")} <= on_shells
         assert len(on_shells) <= 3
-        around_models = 4 * len(POOL) * 3 + (len(WITH_SPREAD) + len(PREDICTIVE)) * 3 + len(CHEAP) * 2
+        around_models = (
+            4 * len(POOL) * 3 + (len(WITH_SPREAD) + len(PREDICTIVE)) * 3 + len(refitted_runs(house, dataset))
+        )
         of_regressors = 2 * 2 * len(SMALL["quantile_models"])
         assert len(nested) == around_models + of_regressors + 2 * len(on_shells)
         assert {run.data.tags["mlflow.parentRunId"] for run in nested} <= {run.info.run_id for run in runs}
@@ -198,56 +212,11 @@ def test_a_second_run_does_nothing(house: House) -> None:
         assert store.execute("select run_uuid, lifecycle_stage from runs order by 1").fetchall() == runs_before
 
 
-def test_editing_a_model_reruns_its_jobs_and_no_others(house: House) -> None:
-    file = house.root / "src" / "softkin" / "models" / "mlp.py"
-    original = file.read_text()
-    file.write_text(original + "\n# edited\n")
-    try:
-        jobs = house.jobs()
-    finally:
-        file.write_text(original)
-    jobs = [job for job in jobs if job[0] not in INTERVAL_STAGES | {"refit", "refit_shells", "refit_spaces"}]
-    per_model = {job for job in jobs if job[0] in ("tune", "fit_paper", "fit_tuned", "predict")}
-    assert {rule for rule, _ in per_model} == {"tune", "fit_paper", "fit_tuned", "predict"}
-    assert all("model=mlp" in wildcards for _, wildcards in per_model)
-    assert {rule for rule, _ in jobs} - {"tune", "fit_paper", "fit_tuned", "predict"} <= {
-        *("score_points", "build_tables", "draw_campaign_figures", "build_report", "track"),
-    }
-    assert house.jobs() == []
-
-
-@pytest.mark.parametrize(
-    ("module", "rules"),
-    [
-        ("core/metrics/point.py", {"score_points", "draw_figures", "build_tables", "track"}),
-        ("core/metrics/interval.py", INTERVAL_STAGES | {"build_tables", "track"}),
-        ("training/refit.py", INTERVAL_STAGES | {"refit", "build_tables", "track"}),
-        ("training/refit_spaces.py", {"refit_spaces", "score_points", "draw_figures", "build_tables", "track"}),
-        ("uncertainty/error_growth.py", INTERVAL_STAGES | {"build_tables", "track"}),
-        ("uncertainty/intervals/split_conformal_crepes.py", INTERVAL_STAGES | {"build_tables", "track"}),
-        ("uncertainty/regions/box.py", {"score_intervals", "draw_figures", "build_tables", "track"}),
-        ("uncertainty/labelled/adaptive.py", {"score_extrapolation", "draw_figures", "build_tables", "track"}),
-        ("reporting/tables/published.py", {"build_tables"}),
-        ("tracking/store.py", {"track"}),
-    ],
-)
-def test_editing_a_later_stage_refits_nothing(house: House, module: str, rules: set[str]) -> None:
-    file = house.root / "src" / "softkin" / module
-    original = file.read_text()
-    file.write_text(original + "\n# edited\n")
-    try:
-        assert {rule for rule, _ in house.jobs()} == rules | (
-            {"draw_campaign_figures", "build_report"} if "build_tables" in rules else set()
-        )
-    finally:
-        file.write_text(original)
-
-
-def test_more_trials_retune_and_keep_the_paper_preset(house: House, tmp_path: Path) -> None:
+def test_more_trials_search_every_model_anew_and_prepare_nothing(house: House, tmp_path: Path) -> None:
     (tmp_path / "more.yaml").write_text("tuning: {n_trials: 6}")
     jobs = house.jobs(tmp_path / "more.yaml")
-    assert sum(rule == "tune" for rule, _ in jobs) == 2 * len(POOL)
-    assert "fit_paper" not in {rule for rule, _ in jobs}
+    assert sum(rule == "fit_model" for rule, _ in jobs) == 2 * len(POOL)
+    assert not {"prepare", "audit", "fit_quantiles"} & {rule for rule, _ in jobs}
 
 
 @pytest.mark.parametrize(

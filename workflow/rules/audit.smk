@@ -4,7 +4,6 @@ rule audit:
     input:
         table="results/{dataset}/table.parquet",
         description="results/{dataset}/dataset.json",
-        code=code_of("audit"),
     output:
         data_card="results/{dataset}/data_card.json",
         readable="results/{dataset}/data_card.md",
@@ -16,5 +15,6 @@ rule audit:
     threads: 1
     params:
         source=source,
+        code=code_of("audit"),
     script:
         "../scripts/audit.py"

@@ -1,55 +1,79 @@
-# The files of softkin that decide a rule's result, as inputs: Snakemake does not see imports. All are read off the
-# imports, see src/softkin/core/imported_code.py; the registries' entries that a wildcard or the configuration names are
-# inputs of their own.
-from softkin.core.imported_code import file_of, imported_code
+# The code that decides a rule's result, as a param `code`: Snakemake does not see imports. A hash of the script and of all
+# that it imports, read off the imports, see src/softkin/core/imported_code.py; to it come the registries' entries that a
+# wildcard or the configuration names. A hash of contents knows neither the folder that softkin is in nor the times of its
+# files, and is one string where the files would be sixty inputs of each job.
+from functools import cache
+
+from softkin.core.files import sha256_of
+from softkin.core.imported_code import code_hash, file_of
 
 
-def code_of(script):
-    """What the script of that name imports, but for the entries of registries."""
-    return imported_code(
-        Path(workflow.basedir) / "workflow" / "scripts" / f"{script}.py"
-    )
+@cache
+def code_of(script, *modules):
+    """The code of the script of that name and of modules, entries of registries."""
+    scripts = Path(workflow.basedir) / "workflow" / "scripts"
+    return code_hash(scripts / f"{script}.py", *map(file_of, modules))
 
 
-def entry_code(*functions):
-    """The files that define these functions, partial ones too, of registry entries, with what they import."""
-    names = {getattr(function, "func", function).__module__ for function in functions}
-    return imported_code(*(file_of(name) for name in names))
+@cache
+def code_of_study(module, entry):
+    """The code that decides a study: the module that tunes, and the entry of a registry that is tuned."""
+    return code_hash(file_of(module), file_of(entry))
+
+
+def module_of(function):
+    """The name of the module that defines a function, a partial one too."""
+    return getattr(function, "func", function).__module__
+
+
+def prepare_code(wildcards):
+    """The code that reads a dataset's file, and that which cleans its rows, where its entry asks for it."""
+    entry = source(wildcards)
+    cleaning = ["softkin.data.audit.cleaning"] if entry.get("clean") else []
+    return code_of("prepare", module_of(READERS[entry["format"]]), *cleaning)
 
 
 def model_code(wildcards):
-    """What defines one model."""
-    return entry_code(MODELS[wildcards.model].build)
+    """The code that tunes, fits and predicts with one model."""
+    return code_of("fit_model", module_of(MODELS[wildcards.model].build))
+
+
+def study_code(wildcards):
+    """The code that decides the studies of one model."""
+    return code_of_study(
+        "softkin.training.tune", module_of(MODELS[wildcards.model].build)
+    )
 
 
 def quantile_code(wildcards):
-    """What defines one quantile regressor."""
-    return entry_code(QUANTILE_MODELS[wildcards.quantile_model].build)
+    """The code that tunes, fits and predicts with one quantile regressor."""
+    return code_of(
+        "fit_quantiles", module_of(QUANTILE_MODELS[wildcards.quantile_model].build)
+    )
 
 
-def reader_code(wildcards):
-    """What decides how a dataset's file is read."""
-    return entry_code(READERS[source(wildcards)["format"]])
+def quantile_study_code(wildcards):
+    """The code that decides the study of one quantile regressor."""
+    return code_of_study(
+        "softkin.training.tune_quantiles",
+        module_of(QUANTILE_MODELS[wildcards.quantile_model].build),
+    )
 
 
-def cleaning_code(wildcards):
-    """What decides which rows of train are dropped, where the dataset's entry asks for it."""
-    cleaning = file_of("softkin.data.audit.cleaning")
-    return imported_code(cleaning) if source(wildcards).get("clean") else []
-
-
-def interval_code():
+def interval_modules():
     """What defines the configured interval methods."""
-    methods = [INTERVAL_METHODS[name] for name in config["interval_methods"]]
-    return entry_code(*(method.intervals for method in methods))
+    return [
+        module_of(INTERVAL_METHODS[name].intervals)
+        for name in config["interval_methods"]
+    ]
 
 
-def region_code():
+def region_modules():
     """What defines the configured regions."""
-    return entry_code(*(REGION_METHODS[name].region for name in config["regions"]))
+    return [module_of(REGION_METHODS[name].region) for name in config["regions"]]
 
 
-def page_templates():
-    """What the report is rendered with besides modules."""
+def template_hash():
+    """Hash of what the report is rendered with besides modules."""
     folder = file_of("softkin.reporting.page").parent / "templates"
-    return sorted(path for path in folder.rglob("*") if path.is_file())
+    return sha256_of(sorted(path for path in folder.rglob("*") if path.is_file()))

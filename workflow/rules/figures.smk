@@ -17,7 +17,6 @@ rule draw_figures:
         conditional="results/{dataset}/conditional_coverage.csv",
         extrapolation="results/{dataset}/extrapolation_intervals.csv",
         target_spaces="results/{dataset}/target_spaces.csv",
-        code=code_of("draw_figures"),
     output:
         report(
             directory("results/{dataset}/figures"),
@@ -40,6 +39,7 @@ rule draw_figures:
         tuned=[model for model, preset in every_run() if preset == TUNED],
         methods=config["interval_methods"],
         source=source,
+        code=code_of("draw_figures"),
     script:
         "../scripts/draw_figures.py"
 
@@ -49,7 +49,6 @@ rule draw_figures:
 rule draw_campaign_figures:
     input:
         published_comparison="results/tables/published_comparison.csv",
-        code=code_of("draw_campaign_figures"),
     output:
         directory("results/tables/figures"),
     log:
@@ -61,5 +60,6 @@ rule draw_campaign_figures:
     threads: 1
     params:
         titles={name: config["sources"][name]["title"] for name in config["datasets"]},
+        code=code_of("draw_campaign_figures"),
     script:
         "../scripts/draw_campaign_figures.py"

@@ -1,82 +1,73 @@
-# in:  the table of a dataset (rows of train only are read)
-# out: a model fitted with the paper's settings, and the record of what it took
-rule fit_paper:
+# in:  the table of a dataset (rows of train are searched and fitted on, commands of the others predicted)
+# out: of each preset of a model: the fitted model, the record of what it took, its predictions of every subset; of each
+#      searched preset its best parameters and all trials
+# One job for all presets and steps: starting one costs more than most fits. The studies themselves live in
+# results/studies: Snakemake deletes the outputs of a job that was cut off, and a study must outlive that to be resumed.
+rule fit_model:
     input:
         table="results/{dataset}/table.parquet",
-        code=code_of("fit_paper"),
-        model_code=model_code,
     output:
-        model="results/{dataset}/{model}/paper/model.joblib",
-        record="results/{dataset}/{model}/paper/fit.json",
+        models=of_presets("model.joblib"),
+        records=of_presets("fit.json"),
+        predictions=of_presets("predictions.parquet"),
+        parameters=of_searched("parameters.json"),
+        trials=of_searched("trials.csv"),
     log:
-        "results/logs/fit_paper/{dataset}/{model}.log",
+        "results/logs/fit_model/{dataset}/{model}.log",
     benchmark:
-        "results/benchmarks/fit_paper/{dataset}/{model}.tsv"
-    priority: 10
+        "results/benchmarks/fit_model/{dataset}/{model}.tsv"
     conda:
         SOFTWARE
     threads: 1
     params:
+        presets=config["presets"],
+        studies=[
+            f"results/studies/{{dataset}}/{{model}}_{preset}.journal"
+            for preset in SEARCHED_PRESETS
+        ],
+        robot=robot,
+        tuning=tuning("n_trials", "n_outer_trials", "max_markers", "core_shares"),
+        target_spaces=config["target_spaces"],
+        objective=config["objective"],
         overrides=lookup(
             dpath="sources/{dataset}/paper_params/{model}", within=config, default={}
         ),
         max_rows=max_fit_rows,
         seed=config["seed"],
+        code=model_code,
+        study_code=study_code,
     script:
-        "../scripts/fit_paper.py"
+        "../scripts/fit_model.py"
 
 
-# in:  the table of a dataset (rows of train only are read), and the best parameters of each searched preset
-# out: a model fitted with each, and the records of what they took
-# One job for all presets: starting one costs more than most fits.
-rule fit_tuned:
-    input:
-        table="results/{dataset}/table.parquet",
-        parameters=of_searched("parameters.json"),
-        code=code_of("fit_tuned"),
-        model_code=model_code,
-    output:
-        models=of_searched("model.joblib"),
-        records=of_searched("fit.json"),
-    log:
-        "results/logs/fit_tuned/{dataset}/{model}.log",
-    benchmark:
-        "results/benchmarks/fit_tuned/{dataset}/{model}.tsv"
-    priority: 10
-    conda:
-        SOFTWARE
-    threads: 1
-    params:
-        robot=robot,
-        max_rows=max_fit_rows,
-        seed=config["seed"],
-    script:
-        "../scripts/fit_tuned.py"
+if QUANTILE_RUNS:
 
-
-# in:  the table of a dataset (rows of train are fitted on, commands of the others predicted); for the tuned preset, the
-#      best parameters
-# out: a fitted quantile regressor, and its quantiles of validation, test and extrapolation
-rule fit_quantiles:
-    input:
-        table="results/{dataset}/table.parquet",
-        parameters=quantile_parameters,
-        code=code_of("fit_quantiles"),
-        quantile_code=quantile_code,
-    output:
-        model="results/{dataset}/quantiles/{quantile_model}/{preset}/model.joblib",
-        quantiles="results/{dataset}/quantiles/{quantile_model}/{preset}/quantiles.parquet",
-        record="results/{dataset}/quantiles/{quantile_model}/{preset}/fit.json",
-    log:
-        "results/logs/fit_quantiles/{dataset}/{quantile_model}/{preset}.log",
-    benchmark:
-        "results/benchmarks/fit_quantiles/{dataset}/{quantile_model}/{preset}.tsv"
-    priority: 10
-    conda:
-        SOFTWARE
-    threads: 1
-    params:
-        confidence_levels=config["confidence_levels"],
-        seed=config["seed"],
-    script:
-        "../scripts/fit_quantiles.py"
+    # in:  the table of a dataset (rows of train are searched and fitted on, commands of the others predicted)
+    # out: of each preset of a quantile regressor: the fitted one, its quantiles of validation, test and extrapolation,
+    #      and the record of what it took; of the tuned preset its best parameters and all trials
+    rule fit_quantiles:
+        input:
+            table="results/{dataset}/table.parquet",
+        output:
+            models=of_quantile_presets("model.joblib"),
+            quantiles=of_quantile_presets("quantiles.parquet"),
+            records=of_quantile_presets("fit.json"),
+            parameters=of_quantile_presets("parameters.json", [TUNED]),
+            trials=of_quantile_presets("trials.csv", [TUNED]),
+        log:
+            "results/logs/fit_quantiles/{dataset}/{quantile_model}.log",
+        benchmark:
+            "results/benchmarks/fit_quantiles/{dataset}/{quantile_model}.tsv"
+        conda:
+            SOFTWARE
+        threads: 1
+        params:
+            presets=QUANTILE_PRESETS,
+            study="results/studies/{dataset}/quantiles_{quantile_model}.journal",
+            tuning=tuning("n_quantile_trials"),
+            confidence_levels=config["confidence_levels"],
+            seed=config["seed"],
+            code=quantile_code,
+            study_code=quantile_study_code,
+        script:
+            "../scripts/fit_quantiles.py"

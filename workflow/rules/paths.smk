@@ -83,16 +83,17 @@ COMPARED = config["models"] * (
 CHEAP_MODELS = [name for name in config["models"] if MODELS[name].is_cheap]
 # The models that a few gross errors cannot move.
 ROBUST_MODELS = [name for name in config["models"] if MODELS[name].is_robust]
-# The fits of quantile regressors, where a configured method needs them.
+# The presets and runs of quantile regressors, where a configured method needs them.
+QUANTILE_PRESETS = [
+    preset for preset in config["presets"] if preset in (PAPER, TUNED)
+] * asks_for("needs_quantiles")
 QUANTILE_RUNS = [
-    [name, preset]
-    for name in config["quantile_models"]
-    for preset in config["presets"]
-    if preset in (PAPER, TUNED) and asks_for("needs_quantiles")
+    [name, preset] for name in config["quantile_models"] for preset in QUANTILE_PRESETS
 ]
 # The refits that a configured method needs; none of the others are made.
 REFITS = ["results/{dataset}/refits.npz"] * asks_for("needs_refits")
 SHELLS = ["results/{dataset}/shells.npz"] * asks_for("needs_shells")
+OTHER_SPACES = ["results/{dataset}/other_spaces.parquet"] * bool(COMPARED)
 
 
 def stored_outputs(wildcards):
@@ -121,10 +122,18 @@ def interval_params():
     }
 
 
-def quantile_parameters(wildcards):
-    """The best parameters of a quantile regressor, for the tuned preset."""
-    path = "results/{dataset}/quantiles/{quantile_model}/tuned/parameters.json"
-    return expand(path, **wildcards) if wildcards.preset == TUNED else []
+def of_quantile_presets(name, presets=(PAPER, TUNED)):
+    """One file of a quantile regressor for each of these presets that it gets."""
+    return [
+        f"results/{{dataset}}/quantiles/{{quantile_model}}/{preset}/{name}"
+        for preset in QUANTILE_PRESETS
+        if preset in presets
+    ]
+
+
+def tuning(*keys):
+    """What a study is told of the configured tuning: these keys, and the folds and rows of a trial."""
+    return {key: config["tuning"][key] for key in (*keys, "n_folds", "max_rows")}
 
 
 def of_every_dataset(patterns):

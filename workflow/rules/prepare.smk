@@ -3,9 +3,6 @@
 rule prepare:
     input:
         raw="results/{dataset}/raw",
-        code=code_of("prepare"),
-        cleaning=cleaning_code,
-        reader_code=reader_code,
     output:
         table="results/{dataset}/table.parquet",
         description="results/{dataset}/dataset.json",
@@ -17,5 +14,6 @@ rule prepare:
     params:
         source=source,
         max_rows=config.get("max_rows_per_subset"),
+        code=prepare_code,
     script:
         "../scripts/prepare.py"

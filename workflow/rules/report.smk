@@ -8,11 +8,8 @@ rule build_report:
         card_pages=of_every_dataset("results/{dataset}/data_card.md"),
         figures=of_every_dataset("results/{dataset}/figures"),
         campaign_figures="results/tables/figures",
-        records=[record for _, _, records in timed_jobs() for record in records],
         benchmarks=[benchmark for _, benchmark, _ in timed_jobs()],
         citation=Path(workflow.basedir) / "CITATION.cff",
-        code=code_of("build_report"),
-        templates=page_templates(),
     output:
         report(
             REPORT,
@@ -29,5 +26,7 @@ rule build_report:
     params:
         jobs=timed_jobs(),
         config=config,
+        code=code_of("build_report"),
+        templates=template_hash(),
     script:
         "../scripts/build_report.py"

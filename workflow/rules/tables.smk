@@ -16,7 +16,6 @@ rule build_tables:
         published=PUBLISHED / "point_metrics.csv",
         subsets=PUBLISHED / "subsets.csv",
         published_intervals=PUBLISHED / "interval_metrics.csv",
-        code=code_of("build_tables"),
     output:
         headline=report(
             HEADLINE,
@@ -52,5 +51,6 @@ rule build_tables:
         studies=every_study(),
         objective=config["objective"],
         sources={name: config["sources"][name] for name in config["datasets"]},
+        code=code_of("build_tables"),
     script:
         "../scripts/build_tables.py"

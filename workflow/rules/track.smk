@@ -30,7 +30,6 @@ rule track:
         intervals="results/{dataset}/interval_metrics.csv",
         figures="results/{dataset}/figures",
         calibrated_model="results/{dataset}/calibrated_model.joblib",
-        code=code_of("track"),
     output:
         "results/{dataset}/mlflow_runs.json",
     log:
@@ -46,5 +45,6 @@ rule track:
         campaign=config["campaign"],
         seed=config["seed"],
         tracking_uri=tracking_uri(),
+        code=code_of("track"),
     script:
         "../scripts/track.py"

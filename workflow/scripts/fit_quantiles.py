@@ -1,18 +1,30 @@
-"""Rule fit_quantiles: fit a quantile regressor and predict quantiles."""
+"""Rule fit_quantiles: search a quantile regressor; fit and predict by each preset."""
 
 from softkin.core.files import read_json
 from softkin.core.job import job
+from softkin.core.runs import TUNED
 from softkin.models.quantile import QUANTILE_MODELS
-from softkin.training.fit_quantiles import QuantileModel, fit_quantiles
+from softkin.training.fit_quantiles import QuantileFiles, QuantileModel, fit_quantiles
+from softkin.training.study import StudyFile, TuningSettings
+from softkin.training.tune_quantiles import tune_quantiles
 
-dataset, model, preset = (snakemake.wildcards[name] for name in ("dataset", "quantile_model", "preset"))
-tuned, params, spec = snakemake.input.parameters, snakemake.params, QUANTILE_MODELS[model]
-with job(snakemake.log[0], f"fit quantiles {dataset} {model} {preset}"):
-    settings = read_json(tuned[0])["params"] if tuned else spec.paper_params
-    fit_quantiles(
-        snakemake.input.table,
-        regressor=QuantileModel(spec, settings, params.confidence_levels, params.seed, snakemake.threads),
-        model=snakemake.output.model,
-        quantiles=snakemake.output.quantiles,
-        record=snakemake.output.record,
-    )
+table, params, output = snakemake.input.table, snakemake.params, snakemake.output
+dataset, model, tuning, threads = *snakemake.wildcards, params.tuning, snakemake.threads
+spec = QUANTILE_MODELS[model]
+of_presets = zip(params.presets, map(QuantileFiles, output.models, output.quantiles, output.records), strict=True)
+with job(snakemake.log[0], f"fit quantiles {dataset} {model}"):
+    fitted_with = dict.fromkeys(params.presets, spec.paper_params)
+    if TUNED in params.presets:
+        tune_quantiles(
+            table,
+            spec=spec,
+            settings=TuningSettings(tuning["n_quantile_trials"], tuning["n_folds"], tuning["max_rows"], params.seed),
+            file=StudyFile(params.study, params.study_code),
+            threads=threads,
+            parameters=output.parameters[0],
+            trials=output.trials[0],
+        )
+        fitted_with[TUNED] = read_json(output.parameters[0])["params"]
+    for preset, files in of_presets:
+        regressor = QuantileModel(spec, fitted_with[preset], params.confidence_levels, params.seed, threads)
+        fit_quantiles(table, regressor=regressor, files=files)

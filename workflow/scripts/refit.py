@@ -1,19 +1,58 @@
-"""Rule refit: refit the cheap models of a dataset on parts of train."""
+"""Rule refit: refit models of a dataset on folds and bootstrap samples, on inner cores, in the other target space."""
 
 from softkin.core.job import job
-from softkin.core.runs import Run
+from softkin.core.runs import OUTER, Run
 from softkin.models import MODELS
 from softkin.training.refit import RefittingSettings, refit
+from softkin.training.refit_shells import ShellSettings, refit_shells
+from softkin.training.refit_spaces import refit_spaces
+from softkin.training.selection import runs_to_refit, shell_runs
 
+files, params, output, threads = snakemake.input, snakemake.params, snakemake.output, snakemake.threads
 dataset = snakemake.wildcards.dataset
-runs = [Run(*run) for run in snakemake.params.runs]
+records = dict(zip([Run(*run) for run in params.runs], files.records, strict=True))
+parameters = dict(zip([Run(*run) for run in params.searched], files.parameters, strict=True))
+
+
+def specs(runs):
+    """The models of runs."""
+    return {run: MODELS[run.model] for run in runs}
+
+
 with job(snakemake.log[0], f"refit {dataset}"):
-    refit(
-        snakemake.input.table,
-        dataset=dataset,
-        specs={run: MODELS[run.model] for run in runs},
-        records=dict(zip(runs, snakemake.input.records, strict=True)),
-        settings=RefittingSettings(**snakemake.params.refitting, seed=snakemake.params.seed),
-        threads=snakemake.threads,
-        refits=snakemake.output[0],
-    )
+    if output.refits:
+        refit(
+            files.table,
+            dataset=dataset,
+            specs=specs(runs_to_refit(list(records), parameters, params.objective, params.cheap_models)),
+            records=records,
+            settings=RefittingSettings(**params.refitting, seed=params.seed),
+            threads=threads,
+            refits=output.refits[0],
+        )
+    if output.shells:
+        refit_shells(
+            files.table,
+            dataset=dataset,
+            specs=specs(shell_runs(list(records), parameters, params.objective, params.robust_models)),
+            records=records,
+            max_fit_rows=params.max_fit_rows,
+            settings=ShellSettings(
+                **params.shell_settings,
+                standardised_norm=params.robot["standardised_norm"],
+                seed=params.seed,
+                threads=threads,
+            ),
+            shells=output.shells[0],
+        )
+    if output.spaces:
+        refit_spaces(
+            files.table,
+            specs={model: MODELS[model] for model in params.compared},
+            parameters={model: parameters[Run(model, OUTER)] for model in params.compared},
+            base=params.robot["base"],
+            max_fit_rows=params.max_fit_rows,
+            seed=params.seed,
+            threads=threads,
+            predictions=output.spaces[0],
+        )

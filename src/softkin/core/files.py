@@ -40,7 +40,7 @@ def read_json(path: str | os.PathLike[str]) -> Any:
     return json.loads(Path(path).read_text(encoding="utf-8"))
 
 
-def sha256_of(paths: Iterable[str | os.PathLike[str]]) -> str:
+def sha256_of(paths: Iterable[str | Path]) -> str:
     """SHA-256 (hex) over the contents of `paths`, each with its file name and size, in that order."""
     digest = hashlib.sha256()
     for path in map(Path, paths):

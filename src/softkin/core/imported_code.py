@@ -1,8 +1,8 @@
 """The source files that decide what a script writes, read off its imports.
 
-Snakemake sees the inputs of a rule and not the imports of its script, so the files are inputs; the fingerprint of a
-study is made from the same files. Sources are read as text and never imported: that takes milliseconds, each time
-Snakemake starts.
+Snakemake sees the inputs of a rule and not the imports of its script, so a hash of the files is a param of the rule;
+the fingerprint of a study holds one, too. Sources are read as text and never imported: that takes milliseconds, each
+time Snakemake starts.
 """
 
 from __future__ import annotations
@@ -10,6 +10,8 @@ from __future__ import annotations
 import re
 from functools import cache
 from pathlib import Path
+
+from softkin.core.files import sha256_of
 
 PACKAGE = Path(__file__).parents[1]
 
@@ -59,6 +61,19 @@ def imported_code(*sources: str | Path) -> list[Path]:
             files.add(path)
         waiting += [file_of(name) for name in imported_modules(path) if name not in LEFT_OUT]
     return sorted(files)
+
+
+def code_hash(*sources: str | Path) -> str:
+    """SHA-256 (hex) of `sources` (scripts or modules) and of all that they import, by names within the package and
+    contents: it knows neither the folder that they are in nor their times.
+    """
+    files = {*(Path(source).resolve() for source in sources), *imported_code(*sources)}
+    ordered: list[Path] = sorted(files, key=_name)
+    return sha256_of(ordered)
+
+
+def _name(path: Path) -> str:
+    return (path.relative_to(PACKAGE) if path.is_relative_to(PACKAGE) else Path(path.name)).as_posix()
 
 
 @cache

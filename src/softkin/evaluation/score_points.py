@@ -15,20 +15,25 @@ from softkin.core.runs import Run
 from softkin.core.samples import EXTRAPOLATION, SUBSETS, TEST, TRAIN, coordinate_columns, informative_coordinates
 from softkin.data.table import read_subset
 
-#: Run -> paths of its `predictions`, `fit` record and `predict` record.
-Runs = Mapping[Run, Mapping[str, str]]
-
-
 SPACE_COLUMNS = ["dataset", "subset", "model", "target_space", "is_chosen", "shell_mae_mm", "rmse_mm", "mae_mm"]
 
 
-def score(table: str | Path, *, dataset: str, runs: Runs, point: str | Path, markers: str | Path) -> None:
+def score_points(
+    table: str | Path,
+    *,
+    dataset: str,
+    predictions: Mapping[Run, str | Path],
+    records: Mapping[Run, str | Path],
+    point: str | Path,
+    markers: str | Path,
+) -> None:
     """Write the point metrics of all runs.
 
     Parameters:
         table: the tidy table.
         dataset: its name.
-        runs: run -> its files.
+        predictions: run -> file of its predictions (Parquet).
+        records: run -> record of its fit (JSON).
         point: output (CSV), a row per subset, model and preset.
         markers: output (CSV), a row per subset, model, preset and marker.
     """
@@ -36,16 +41,13 @@ def score(table: str | Path, *, dataset: str, runs: Runs, point: str | Path, mar
     informative = informative_coordinates(truth[TRAIN])
     point_rows: list[dict[str, Any]] = []
     marker_rows: list[dict[str, Any]] = []
-    for (model, preset), files in runs.items():
-        predictions = pd.read_parquet(files["predictions"])
-        seconds = {
-            "fit_seconds": read_json(files["fit"])["fit_seconds"],
-            "predict_us_per_row": read_json(files["predict"])["predict_us_per_row"],
-        }
+    for run, path in predictions.items():
+        frame, record = pd.read_parquet(path), read_json(records[run])
+        seconds = {name: record[name] for name in ("fit_seconds", "predict_us_per_row")}
         for subset, true in truth.items():
             columns = coordinate_columns(true.shape[1] // 3)
-            predicted = predictions.loc[predictions["subset"] == subset, columns].to_numpy()
-            key = {"dataset": dataset, "subset": subset, "model": model, "preset": preset}
+            predicted = frame.loc[frame["subset"] == subset, columns].to_numpy()
+            key = {"dataset": dataset, "subset": subset, "model": run.model, "preset": run.preset}
             point_rows.append(key | point_metrics(true, predicted, informative) | seconds)
             errors = euclidean_errors(true, predicted)
             means, p95s = errors.mean(axis=0), np.percentile(errors, 95, axis=0)
@@ -53,8 +55,8 @@ def score(table: str | Path, *, dataset: str, runs: Runs, point: str | Path, mar
                 key | {"marker": i + 1, "euclidean_mean_mm": mean, "euclidean_p95_mm": p95}
                 for i, (mean, p95) in enumerate(zip(means, p95s, strict=True))
             ]
-    for rows, path in ((point_rows, point), (marker_rows, markers)):
-        with replacing(path) as temporary:
+    for rows, output in ((point_rows, point), (marker_rows, markers)):
+        with replacing(output) as temporary:
             pd.DataFrame(rows).to_csv(temporary, index=False)
 
 

@@ -1,8 +1,9 @@
-"""Fit a point model on `train` of a table; write the fitted model and a record of the fit."""
+"""Fit a point model on `train` of a table; write the fitted model, its predictions and a record of both."""
 
 from __future__ import annotations
 
 import logging
+from dataclasses import dataclass
 from pathlib import Path
 
 import joblib
@@ -13,27 +14,30 @@ from softkin.core.samples import TRAIN
 from softkin.data.table import read_subset
 from softkin.models.spec import ModelSpec
 from softkin.training.kinematic_model import FitSettings, fit_quietly, kinematic_model, some_rows
+from softkin.training.predict import predict
 
 logger = logging.getLogger("softkin")
 
 
+@dataclass(frozen=True, slots=True)
+class FitFiles:
+    """Files of one fit: the `model` (joblib), a `record` of settings and times (JSON), the `predictions` (Parquet)."""
+
+    model: str | Path
+    record: str | Path
+    predictions: str | Path
+
+
 def fit(
-    table: str | Path,
-    *,
-    spec: ModelSpec,
-    settings: FitSettings,
-    model: str | Path,
-    record: str | Path,
-    max_rows: int | None = None,
+    table: str | Path, *, spec: ModelSpec, settings: FitSettings, files: FitFiles, max_rows: int | None = None
 ) -> None:
-    """Fit on `train` of `table`; write the fitted `model` and a `record` of its settings and times.
+    """Fit on `train` of `table` and predict every subset; write the fitted model, its predictions and a record.
 
     Parameters:
         table: path of the tidy table (Parquet).
         spec: the model.
         settings: its parameters, target space, seed and threads.
-        model: path of the fitted model (joblib).
-        record: path of the record (JSON).
+        files: where model, record and predictions (see `predict`) go.
         max_rows: rows at most, for a model that cannot take more: the others are left out at random, and the log says
             so.
     """
@@ -41,10 +45,13 @@ def fit(
     estimator = kinematic_model(spec, settings)
     with stopwatch() as watch:
         stopped = fit_quietly(estimator, samples, settings.threads)
-    with replacing(model) as temporary:
+    with replacing(files.model) as temporary:
         joblib.dump(estimator, temporary, compress=3)
+    microseconds = predict(
+        table, spec=spec, estimator=estimator, threads=settings.threads, predictions=files.predictions
+    )
     write_json(
-        record,
+        files.record,
         {
             "params": settings.params,
             "skip_constant": settings.skip_constant,
@@ -54,6 +61,7 @@ def fit(
             "solvers_at_iteration_bound": stopped,
             "fit_seconds": watch.seconds,
             "fit_cpu_seconds": watch.cpu_seconds,
+            "predict_us_per_row": microseconds,
         },
     )
     logger.info("fitted on %d rows in %.1f s", len(samples), watch.seconds)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import joblib
@@ -62,33 +63,35 @@ class QuantileModel:
         return result
 
 
-def fit_quantiles(
-    table: str | Path,
-    *,
-    regressor: QuantileModel,
-    model: str | Path,
-    quantiles: str | Path,
-    record: str | Path,
-) -> None:
+@dataclass(frozen=True, slots=True)
+class QuantileFiles:
+    """Files of one fit: the `model` (joblib), the `quantiles` of validation, test and extrapolation in mm (Parquet, see
+    `bounds_frame`), a `record` of settings and times (JSON).
+    """
+
+    model: str | Path
+    quantiles: str | Path
+    record: str | Path
+
+
+def fit_quantiles(table: str | Path, *, regressor: QuantileModel, files: QuantileFiles) -> None:
     """Fit `regressor` on `train` of `table`; write it, the quantiles that it predicts and a record of its times.
 
     Parameters:
         table: path of the tidy table (Parquet).
         regressor: the unfitted quantile regressors of all coordinates.
-        model: path of the fitted regressors (joblib).
-        quantiles: path of the quantiles of validation, test and extrapolation in mm (Parquet, see `bounds_frame`).
-        record: path of the record (JSON).
+        files: where they go.
     """
     with stopwatch() as watch, threadpool_limits(regressor.threads):
         regressor.fit(read_subset(table, TRAIN))
-    with replacing(model) as temporary:
+    with replacing(files.model) as temporary:
         joblib.dump(regressor, temporary, compress=3)
     frames = []
     for subset in PREDICTED_SUBSETS:
         predicted = regressor.predict(read_subset(table, subset).commands)
         frames += [bounds_frame(predicted[i], subset, level) for i, level in enumerate(regressor.levels)]
-    with replacing(quantiles) as temporary:
+    with replacing(files.quantiles) as temporary:
         pd.concat(frames, ignore_index=True).to_parquet(temporary, index=False)
     times = {"fit_seconds": watch.seconds, "fit_cpu_seconds": watch.cpu_seconds}
-    write_json(record, {"params": regressor.params, **times})
+    write_json(files.record, {"params": regressor.params, **times})
     logger.info("fitted %d quantiles in %.1f s", 2 * len(regressor.levels), watch.seconds)

@@ -50,6 +50,11 @@ def recorded_settings(record: Mapping[str, Any], seed: int, threads: int) -> Fit
     )
 
 
+def searched_settings(best: Mapping[str, Any], base: Mapping[str, Any] | None, seed: int, threads: int) -> FitSettings:
+    """The settings of a fit with the `best` parameters of a study (as `tune_table` writes them)."""
+    return FitSettings(best["params"], True, seed, threads, target_space=best["target_space"], base=base)
+
+
 def kinematic_model(spec: ModelSpec, settings: FitSettings) -> Any:
     """Unfitted regressor commands -> positions in mm, which standardises both by the rows that it is fitted on."""
     return KinematicRegressor(

@@ -8,12 +8,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import joblib
 import numpy as np
 import pandas as pd
 from threadpoolctl import threadpool_limits
 
-from softkin.core.files import replacing, write_json
+from softkin.core.files import replacing
 from softkin.core.samples import SUBSETS, TEST, TRAIN, Array, Samples, coordinate_columns
 from softkin.data.table import read_subset
 from softkin.models.spec import ModelSpec
@@ -35,23 +34,21 @@ def predict(
     table: str | Path,
     *,
     spec: ModelSpec,
-    model: str | Path,
+    estimator: Any,
     threads: int,
     predictions: str | Path,
-    record: str | Path,
-) -> None:
-    """Write the predictions of every subset, and how long one row of `test` takes (median of five repetitions).
+) -> float:
+    """Write the predictions of every subset; return how many microseconds a row of `test` takes (median of five
+    repetitions).
 
     Parameters:
         table: path of the tidy table (Parquet).
         spec: the model.
-        model: path of the fitted model (joblib).
+        estimator: the fitted kinematic model.
         threads: threads at most.
         predictions: path of the predictions (Parquet: subset, m1_x.. in mm, rows as in `table`). A model with a spread
             has columns for it too, in mm: std_m1_x.. where it is a predictive standard deviation, else spread_m1_x...
-        record: path of the time of a row (JSON).
     """
-    estimator = joblib.load(model)
     train = read_subset(table, TRAIN)
     frames = []
     with threadpool_limits(threads):
@@ -66,7 +63,7 @@ def predict(
                 microseconds = _microseconds_per_row(estimator, commands)
     with replacing(predictions) as temporary:
         pd.concat(frames, ignore_index=True).to_parquet(temporary, index=False)
-    write_json(record, {"predict_us_per_row": microseconds})
+    return microseconds
 
 
 def _frame(subset: str, positions: Array) -> pd.DataFrame:

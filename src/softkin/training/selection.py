@@ -124,6 +124,24 @@ def run_of_choice(parameters: Mapping[Run, str | Path], objective: str) -> Run:
     return Run(best["model"], best["preset"])
 
 
+def deployable_runs(runs: Collection[Run], parameters: Mapping[Run, str | Path], objective: str) -> list[Run]:
+    """Those of `runs` that can be deployed: the chosen one; all where nothing was searched.
+
+    `parameters` is as for `run_of_choice`, empty where nothing was searched.
+    """
+    return [run_of_choice(parameters, objective)] if parameters else list(runs)
+
+
+def runs_to_refit(
+    runs: Collection[Run], parameters: Mapping[Run, str | Path], objective: str, cheap_models: Collection[str]
+) -> list[Run]:
+    """Those of `runs` that are refitted on folds and bootstrap samples of `train`: the paper's and those that can be
+    deployed, of cheap models. Refitting all would take as long as half of all studies.
+    """
+    candidates = dict.fromkeys([PAPERS_RUN, *deployable_runs(runs, parameters, objective)])
+    return [run for run in candidates if run in runs and run.model in cheap_models]
+
+
 def shell_runs(
     runs: Collection[Run], parameters: Mapping[Run, str | Path], objective: str, robust_models: Collection[str]
 ) -> list[Run]:
@@ -132,6 +150,6 @@ def shell_runs(
 
     `parameters` is as for `run_of_choice`, empty where nothing was searched.
     """
-    chosen = [run_of_choice(parameters, objective)] if parameters else []
+    chosen = deployable_runs([], parameters, objective)
     robust = [Run(model, OUTER) for model in robust_models]
     return [run for run in dict.fromkeys([PAPERS_RUN, *chosen, *robust]) if run in runs]

@@ -19,7 +19,7 @@ from filelock import FileLock
 from optuna.trial import FrozenTrial, Trial, TrialState
 
 from softkin.core.errors import DataError
-from softkin.core.files import replacing, sha256_of
+from softkin.core.files import replacing
 from softkin.core.rows import sampled_rows
 from softkin.core.samples import Params, Samples
 from softkin.data.table import content_hash
@@ -63,15 +63,15 @@ def bounded_rows(samples: Samples, max_rows: int, seed: int) -> Samples:
     return Samples(samples.commands[rows], samples.positions[rows])
 
 
-def fingerprint(name: str, samples: Samples, settings: TuningSettings, code: Sequence[str | Path]) -> str:
+def fingerprint(name: str, samples: Samples, settings: TuningSettings, code: str) -> str:
     """SHA-256 (hex) of all that decides a trial: the search's `name`, the rows of `train`, the settings but for the
-    number of trials, the source files `code`, the library versions.
+    number of trials, the hash `code` of source files, the library versions.
     """
     decides = {
         "search": name,
         "data": content_hash(samples),
         "settings": {key: value for key, value in asdict(settings).items() if key != "n_trials"},
-        "code": sha256_of(sorted(map(str, code))),
+        "code": code,
         "versions": {package: version(package) for package in DECIDING_PACKAGES},
     }
     return hashlib.sha256(json.dumps(decides, sort_keys=True).encode()).hexdigest()
@@ -94,10 +94,10 @@ class Search:
 
 @dataclass(frozen=True, slots=True)
 class StudyFile:
-    """Where a study lives (SQLite), and the source files whose `code` decides its trials."""
+    """Where a study lives, and the hash of the `code` that decides its trials."""
 
     path: str | Path
-    code: Sequence[str | Path]
+    code: str
 
 
 def run_study(samples: Samples, *, search: Search, settings: TuningSettings, file: StudyFile) -> TuningResult:

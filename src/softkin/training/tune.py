@@ -196,7 +196,7 @@ def tune_table(
     settings: TuningSettings,
     search: SearchSettings,
     files: Mapping[str, PresetFiles],
-    code: Sequence[str | Path],
+    code: str,
     threads: int,
 ) -> None:
     """Tune a model on `train` of `table` by each preset; write the best parameters and all trials.
@@ -208,7 +208,7 @@ def tune_table(
         settings: folds, rows and seed of a trial.
         search: number of trials, scores and target spaces.
         files: files of each preset that is searched.
-        code: source files that decide the studies.
+        code: hash of the code that decides the studies.
         threads: threads of a fit at most.
     """
     samples = read_subset(table, TRAIN)

@@ -8,19 +8,17 @@ import pytest
 from softkin.core.files import write_json
 from softkin.core.runs import Run
 from softkin.core.samples import SUBSETS
-from softkin.evaluation.score_points import score, score_spaces
+from softkin.evaluation.score_points import score_points, score_spaces
 
 
 def test_a_known_offset_is_scored_in_every_subset(table: Path, tmp_path: Path) -> None:
     predictions = pd.read_parquet(table).drop(columns=["u1", "u2"])
     predictions[["m1_x", "m1_y", "m1_z"]] += [3.0, 0.0, 4.0]
     predictions.to_parquet(tmp_path / "predictions.parquet")
-    write_json(tmp_path / "fit.json", {"fit_seconds": 1.5})
-    write_json(tmp_path / "predict.json", {"predict_us_per_row": 2.5})
-    names = {"predictions": "predictions.parquet", "fit": "fit.json", "predict": "predict.json"}
-    files = {name: str(tmp_path / file) for name, file in names.items()}
-    point, markers = tmp_path / "point.csv", tmp_path / "markers.csv"
-    score(table, dataset="arm", runs={Run("lr", "paper"): files}, point=point, markers=markers)
+    write_json(tmp_path / "fit.json", {"fit_seconds": 1.5, "predict_us_per_row": 2.5})
+    run, point, markers = Run("lr", "paper"), tmp_path / "point.csv", tmp_path / "markers.csv"
+    files = {"predictions": {run: tmp_path / "predictions.parquet"}, "records": {run: tmp_path / "fit.json"}}
+    score_points(table, dataset="arm", **files, point=point, markers=markers)
     rows = pd.read_csv(point)
     assert rows["subset"].tolist() == list(SUBSETS)
     assert rows["rmse_mm"].tolist() == pytest.approx([7 / 3] * 4)

@@ -11,7 +11,7 @@ from softkin.core.files import read_json
 from softkin.core.samples import SUBSETS, TRAIN, Samples
 from softkin.data.table import read_subset, to_table, write_table
 from softkin.models import MODELS
-from softkin.training.fit import fit
+from softkin.training.fit import FitFiles, fit
 from softkin.training.kinematic_model import FitSettings, fitted_model, recorded_settings
 from tests.conftest import bending_arm
 
@@ -24,8 +24,8 @@ def run(
 ) -> Path:
     """Fit, and return the folder of the files."""
     folder.mkdir(exist_ok=True)
-    files = {"model": folder / "model.joblib", "record": folder / "fit.json"}
-    fit(table, spec=MODELS[model], settings=settings, **files, max_rows=max_rows)
+    files = FitFiles(folder / "model.joblib", folder / "fit.json", folder / "predictions.parquet")
+    fit(table, spec=MODELS[model], settings=settings, files=files, max_rows=max_rows)
     return folder
 
 
@@ -44,6 +44,7 @@ def test_the_record_holds_what_a_refit_needs_and_what_the_fit_took(table: Path, 
     assert record["solvers_at_iteration_bound"] == 0
     assert record["fit_seconds"] > 0
     assert record["fit_cpu_seconds"] > 0
+    assert record["predict_us_per_row"] > 0
     bounded = replace(SETTINGS, params={"C": 100.0, "epsilon": 1e-3, "max_iter": 2})
     assert read_json(run(table, tmp_path, "svr", bounded) / "fit.json")["solvers_at_iteration_bound"] == 3
 

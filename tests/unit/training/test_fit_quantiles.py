@@ -12,7 +12,7 @@ from softkin.core.files import read_json
 from softkin.core.samples import Samples
 from softkin.data.table import read_subset
 from softkin.models.quantile import QUANTILE_MODELS
-from softkin.training.fit_quantiles import QuantileModel, fit_quantiles, quantiles_of
+from softkin.training.fit_quantiles import QuantileFiles, QuantileModel, fit_quantiles, quantiles_of
 from tests.conftest import bending_arm
 
 LEVELS = [0.8, 0.9]
@@ -54,11 +54,11 @@ def test_only_train_is_fitted_on_and_files_round_trip(
     outputs = []
     for place, path in enumerate((table, garbage_table)):
         folder = tmp_path / str(place)
-        files = {"model": folder / "m.joblib", "quantiles": folder / "q.parquet", "record": folder / "r.json"}
+        files = QuantileFiles(folder / "m.joblib", folder / "q.parquet", folder / "r.json")
         regressor = QuantileModel(QUANTILE_MODELS[name], {}, LEVELS, seed=0, threads=1)
-        fit_quantiles(path, regressor=regressor, **files)
-        outputs.append(pd.read_parquet(files["quantiles"]))
-        record = read_json(files["record"])
+        fit_quantiles(path, regressor=regressor, files=files)
+        outputs.append(pd.read_parquet(files.quantiles))
+        record = read_json(files.record)
         assert record["fit_seconds"] > 0
         assert record["params"] == {}
     pd.testing.assert_frame_equal(*outputs)

@@ -13,9 +13,11 @@ from softkin.core.runs import Run
 from softkin.models.spec import PAPERS_RUN
 from softkin.training.selection import (
     OBJECTIVES,
+    deployable_runs,
     deployed,
     on_front,
     run_of_choice,
+    runs_to_refit,
     runs_with_errors,
     searched_runs,
     selection,
@@ -123,6 +125,23 @@ def test_the_papers_run_the_chosen_one_and_robust_ones_get_shells(best_parameter
     assert shell_runs(pool, best_parameters, "interpolation", []) == [PAPERS_RUN, chosen]
     assert shell_runs(pool, {}, "interpolation", ["ridge"]) == [PAPERS_RUN, Run("ridge", "outer")]
     assert shell_runs([chosen], best_parameters, "interpolation", ["ridge"]) == [chosen]
+
+
+def test_the_papers_run_and_the_chosen_one_are_refitted_where_their_models_are_cheap(
+    best_parameters: dict[Run, Path],
+) -> None:
+    pool, chosen = [PAPERS_RUN, *best_parameters], run_of_choice(best_parameters, "interpolation")
+    cheap = [PAPERS_RUN.model, chosen.model]
+    assert deployable_runs(pool, best_parameters, "interpolation") == [chosen]
+    assert runs_to_refit(pool, best_parameters, "interpolation", cheap) == [PAPERS_RUN, chosen]
+    assert runs_to_refit(pool, best_parameters, "interpolation", [PAPERS_RUN.model]) == [PAPERS_RUN]
+    assert runs_to_refit([chosen], best_parameters, "interpolation", cheap) == [chosen]
+
+
+def test_all_runs_of_cheap_models_are_refitted_where_nothing_was_searched() -> None:
+    pool = [Run("lr", "paper"), PAPERS_RUN, Run("gp", "paper")]
+    assert deployable_runs(pool, {}, "both") == pool
+    assert runs_to_refit(pool, {}, "both", ["lr", "gb"]) == [PAPERS_RUN, Run("lr", "paper")]
 
 
 def test_a_run_that_is_chosen_and_robust_gets_shells_once(best_parameters: dict[Run, Path]) -> None:

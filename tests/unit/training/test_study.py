@@ -21,7 +21,7 @@ from optuna.trial import Trial
 
 from softkin.core.errors import DataError
 from softkin.core.files import read_json
-from softkin.core.imported_code import imported_code
+from softkin.core.imported_code import code_hash
 from softkin.core.runs import TUNED
 from softkin.core.samples import Params
 from softkin.models import MODELS
@@ -52,7 +52,7 @@ def study(path: Path, model: str = "lasso", tuning: TuningSettings = SETTINGS) -
         robot=Robot(base=None, standardised_norm=False),
         settings=tuning,
         search=SearchSettings({TUNED: tuning.n_trials}, [TUNED], 2, [0.7], ["cartesian"]),
-        file=StudyFile(path, imported_code(inspect.getfile(MODELS[model].build))),
+        file=StudyFile(path, code_hash(inspect.getfile(MODELS[model].build))),
         threads=1,
     )
     return result
@@ -83,22 +83,19 @@ def test_the_number_of_trials_is_a_total_and_a_longer_study_continues(tmp_path: 
     pd.testing.assert_frame_equal(shorter.trials, short.trials, check_dtype=False)
 
 
-def test_a_study_belongs_to_its_fingerprint(tmp_path: Path) -> None:
-    code = tmp_path / "model.py"
-    code.write_text("a = 1")
+def test_a_study_belongs_to_its_fingerprint() -> None:
     rows, spec = bending_arm(60), MODELS["lr"]
     marks = [
-        fingerprint(spec.name, rows, SETTINGS, [code]),
-        fingerprint(spec.name, bending_arm(61), SETTINGS, [code]),
-        fingerprint("lasso", rows, SETTINGS, [code]),
+        fingerprint(spec.name, rows, SETTINGS, "code"),
+        fingerprint(spec.name, bending_arm(61), SETTINGS, "code"),
+        fingerprint("lasso", rows, SETTINGS, "code"),
         *(
-            fingerprint(spec.name, rows, replace(SETTINGS, **{key: 7}), [code])
+            fingerprint(spec.name, rows, replace(SETTINGS, **{key: 7}), "code")
             for key in ("n_folds", "max_rows", "seed")
         ),
     ]
-    assert fingerprint(spec.name, rows, replace(SETTINGS, n_trials=99), [code]) == marks[0]
-    code.write_text("a = 2")
-    marks.append(fingerprint(spec.name, rows, SETTINGS, [code]))
+    assert fingerprint(spec.name, rows, replace(SETTINGS, n_trials=99), "code") == marks[0]
+    marks.append(fingerprint(spec.name, rows, SETTINGS, "other code"))
     assert len(set(marks)) == len(marks)
 
 
@@ -125,7 +122,7 @@ def parabola(*, first_trials: tuple[Mapping[str, Any], ...] = (), worst: float =
 def test_the_first_trials_come_first_and_the_best_complete_one_wins(tmp_path: Path) -> None:
     starts = ({"x": -3.0}, {"x": 1.5}, {"x": 4.0})
     search = parabola(first_trials=starts)
-    file = StudyFile(tmp_path / "a.db", [])
+    file = StudyFile(tmp_path / "a.db", "code")
     result = run_study(bending_arm(20), search=search, settings=replace(SETTINGS, n_trials=3), file=file)
     assert result.trials["param_x"].tolist() == [-3.0, 1.5, 4.0]
     assert (result.params, result.score_mm) == ({"x": 1.5}, 0.25)
@@ -137,7 +134,7 @@ def test_the_first_trials_come_first_and_the_best_complete_one_wins(tmp_path: Pa
 
 def test_a_trial_of_infinite_error_is_pruned_and_has_no_score(tmp_path: Path) -> None:
     search = parabola(first_trials=({"x": 0.0}, {"x": 9.0}), worst=5.0)
-    file = StudyFile(tmp_path / "a.db", [])
+    file = StudyFile(tmp_path / "a.db", "code")
     result = run_study(bending_arm(20), search=search, settings=replace(SETTINGS, n_trials=2), file=file)
     assert result.trials["state"].tolist() == ["COMPLETE", "PRUNED"]
     assert result.trials["score_mm"].tolist() == pytest.approx([1.0, np.nan], nan_ok=True)
@@ -148,7 +145,7 @@ def test_a_trial_of_infinite_error_is_pruned_and_has_no_score(tmp_path: Path) ->
 
 
 def test_a_study_without_any_score_is_an_error_that_names_its_file(tmp_path: Path) -> None:
-    file = StudyFile(tmp_path / "a.db", [])
+    file = StudyFile(tmp_path / "a.db", "code")
     with pytest.raises(DataError, match="none of 2 trials could be scored") as caught:
         run_study(bending_arm(20), search=parabola(worst=-10.0), settings=replace(SETTINGS, n_trials=2), file=file)
     assert caught.value.where == str(tmp_path / "a.db")

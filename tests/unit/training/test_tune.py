@@ -75,7 +75,7 @@ def tuned(samples: Samples, model: str, folder: Path, n_trials: int = 8) -> dict
         settings=TuningSettings(n_trials=n_trials, n_folds=4, max_rows=400, seed=0),
         search=SearchSettings(dict.fromkeys(presets, n_trials), presets, 3, [0.5, 0.75], SPACES),
         files=files,
-        code=[],
+        code="",
         threads=1,
     )
     for preset in presets:

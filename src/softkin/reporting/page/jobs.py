@@ -21,20 +21,19 @@ N_SLOWEST = 15
 
 @dataclass(frozen=True, slots=True)
 class Job:
-    """One measured job: its rule, dataset, model and preset (empty: all of them), Snakemake's benchmark file, and the
-    JSON files that the job wrote, if any: `n_trials` and `n_pruned` of a study, `fit_seconds` of a fit.
+    """One measured job: its rule, dataset and model (empty: all of them), Snakemake's benchmark file, and the JSON
+    files that the job wrote, if any: `n_trials` and `n_pruned` of a study, `fit_seconds` of a fit.
     """
 
     rule: str
     dataset: str
     model: str
-    preset: str
     benchmark: Path
     records: tuple[Path, ...] = ()
 
 
 def measured(jobs: Sequence[Job]) -> pd.DataFrame:
-    """Columns rule, dataset, model, preset, seconds, cpu_seconds, memory_mb (peak resident), ended (UTC), n_trials,
+    """Columns rule, dataset, model, seconds, cpu_seconds, memory_mb (peak resident), ended (UTC), n_trials,
     n_pruned and fit_seconds (their sums over the job's records; NaN where not recorded), one row per job.
     """
     rows = []
@@ -43,7 +42,7 @@ def measured(jobs: Sequence[Job]) -> pd.DataFrame:
         records = [read_json(record) for record in job.records]
         rows.append(
             {
-                **{"rule": job.rule, "dataset": job.dataset, "model": job.model, "preset": job.preset},
+                **{"rule": job.rule, "dataset": job.dataset, "model": job.model},
                 **{"seconds": benchmark["s"], "cpu_seconds": benchmark["cpu_time"], "memory_mb": benchmark["max_rss"]},
                 "ended": datetime.fromtimestamp(job.benchmark.stat().st_mtime, UTC),
                 **{name: _sum(records, name) for name in ("n_trials", "n_pruned", "fit_seconds")},
@@ -64,16 +63,16 @@ def slowest_grid(times: pd.DataFrame, models: Mapping[str, str]) -> Grid:
         trials = [NOTHING if math.isnan(n) else f"{n:.0f}" for n in (row.n_trials, row.n_pruned)]
         rows.append(
             [
-                *(Cell(row.rule), Cell(row.dataset), Cell(models.get(row.model, "all")), Cell(row.preset or "all")),
+                *(Cell(row.rule), Cell(row.dataset), Cell(models.get(row.model, "all"))),
                 *map(number, (row.seconds, row.cpu_seconds, row.memory_mb)),
                 *(*map(Cell, trials), number(row.fit_seconds)),
             ]
         )
     sentence = (
-        f"The {len(rows)} jobs that took longest, of {len(times)} that were measured. A study (tune) fits its model "
-        "once a trial and fold. CPU time far below wall time means that a job waited for its turn."
+        f"The {len(rows)} jobs that took longest, of {len(times)} that were measured. A study fits its model once "
+        "a trial and fold. CPU time far below wall time means that a job waited for its turn."
     )
-    columns = [*filtered_columns("Job", "Robot"), Column("Model"), Column("Preset")]
+    columns = [*filtered_columns("Job", "Robot"), Column("Model")]
     columns += number_columns(
         "Wall time (s)", "CPU time (s)", "Peak memory (MB)", "Trials", "Pruned", "Of it fitting (s)"
     )

@@ -82,7 +82,7 @@ def timed_jobs(folder: Path) -> list[Job]:
     folder.mkdir()
     benchmark.write_text("s\tmax_rss\tcpu_time\n75.5\t200\t60\n")
     write_json(record, {"n_trials": 30, "n_pruned": 4})
-    return [Job("tune", "arm", "gp", "tuned", benchmark, (record,)), Job("intervals", "arm", "", "", benchmark)]
+    return [Job("fit_model", "arm", "gp", benchmark, (record,)), Job("score", "arm", "", benchmark)]
 
 
 @pytest.fixture(scope="session")

@@ -16,7 +16,7 @@ def jobs(tmp_path: Path) -> list[Job]:
         cpu = "-" if seconds == 1 else str(seconds / 2)  # Snakemake's word for what it could not measure
         benchmark.write_text(f"s\th:m:s\tmax_rss\tcpu_time\n{seconds}\t0:00:01\t100\t{cpu}\n")
         write_json(record, {"n_trials": 30, "n_pruned": seconds})
-        jobs.append(Job("tune" if seconds % 2 else "refit", "arm", "gp", "tuned", benchmark, (record,)))
+        jobs.append(Job("fit_model" if seconds % 2 else "refit", "arm", "gp", benchmark, (record,)))
     return jobs
 
 
@@ -24,9 +24,9 @@ def test_the_slowest_come_first_with_their_trials(jobs: list[Job]) -> None:
     grid = slowest_grid(measured(jobs), {"gp": "Gaussian process"})
     assert len(grid.rows) == N_SLOWEST
     assert [cell.text for cell in grid.rows[0]] == [
-        *("refit", "arm", "Gaussian process", "tuned", "30.0", "15.0", "100", "30", "30", "–"),
+        *("refit", "arm", "Gaussian process", "30.0", "15.0", "100", "30", "30", "–"),
     ]
-    walls = [float(row[4].text) for row in grid.rows]
+    walls = [float(row[3].text) for row in grid.rows]
     assert walls == sorted(walls, reverse=True)
 
 
@@ -38,13 +38,13 @@ def test_duration_adds_up(jobs: list[Job]) -> None:
 
 
 def test_a_job_of_all_models_without_records(jobs: list[Job]) -> None:
-    whole = Job("score_intervals", "arm", "", "", jobs[0].benchmark)
+    whole = Job("score", "arm", "", jobs[0].benchmark)
     (row,) = slowest_grid(measured([whole]), {}).rows
-    assert [cell.text for cell in row] == ["score_intervals", "arm", "all", "all", "1.00", "–", "100", "–", "–", "–"]
+    assert [cell.text for cell in row] == ["score", "arm", "all", "1.00", "–", "100", "–", "–", "–"]
 
 
 def test_seconds_of_several_fits_add_up(jobs: list[Job], tmp_path: Path) -> None:
     for name, seconds in (("one.json", 1.5), ("two.json", 2.0)):
         write_json(tmp_path / name, {"fit_seconds": seconds})
-    fit = Job("fit_tuned", "arm", "gp", "", jobs[0].benchmark, (tmp_path / "one.json", tmp_path / "two.json"))
+    fit = Job("fit_model", "arm", "gp", jobs[0].benchmark, (tmp_path / "one.json", tmp_path / "two.json"))
     assert measured([fit])["fit_seconds"].tolist() == [3.5]

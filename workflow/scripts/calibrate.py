@@ -1,0 +1,38 @@
+"""Rule calibrate: put the intervals of every method around a dataset's models; choose one, with its model a file."""
+
+from softkin.core.job import job
+from softkin.core.runs import Run
+from softkin.models import MODELS
+from softkin.training.selection import deployable_runs
+from softkin.uncertainty.calibrate import calibrate
+from softkin.uncertainty.calibrated_model import build_calibrated_model
+from softkin.uncertainty.choose import choose, deployed_choice
+from softkin.uncertainty.intervals import INTERVAL_METHODS
+from softkin.uncertainty.stored_outputs import stored_outputs
+
+files, params, output, dataset = snakemake.input, snakemake.params, snakemake.output, snakemake.wildcards.dataset
+methods = {name: INTERVAL_METHODS[name] for name in params.methods}
+runs = [Run(*run) for run in params.runs]
+parameters = dict(zip([Run(*run) for run in params.searched], files.parameters, strict=True))
+with job(snakemake.log[0], f"calibrate {dataset}"):
+    outputs = stored_outputs(files, params)
+    candidates = deployable_runs(runs, parameters, params.objective)
+    choose(outputs, methods=methods, runs=candidates, seed=params.seed, regime=params.regime, choice=output.choice)
+    best = deployed_choice(output.choice)
+    in_domain = {} if best is None else {Run(best["model"], best["preset"]): methods[best["interval_method"]]}
+    calibrate(
+        outputs,
+        methods=methods,
+        in_domain=in_domain,
+        intervals=dict(zip(methods, output.intervals, strict=True)),
+    )
+    build_calibrated_model(
+        files.table,
+        dataset=dataset,
+        choice=output.choice,
+        specs=MODELS,
+        methods=INTERVAL_METHODS,
+        models=dict(zip(runs, files.models, strict=True)),
+        shells=next(iter(files.shells), None),
+        output=output.calibrated_model,
+    )

@@ -1,0 +1,91 @@
+"""Rule score: predictions and intervals of one dataset beside the truth."""
+
+from softkin.core.job import job
+from softkin.core.runs import OUTER, Run
+from softkin.core.samples import SUBSETS
+from softkin.data.table import read_subset
+from softkin.evaluation.conditional_coverage import conditional_coverage
+from softkin.evaluation.score_extrapolation import ExtrapolationMethods, score_extrapolation
+from softkin.evaluation.score_intervals import score_intervals
+from softkin.evaluation.score_points import score_points, score_spaces
+from softkin.evaluation.score_regions import score_alarms
+from softkin.training.selection import shell_runs
+from softkin.uncertainty.choose import shown_runs
+from softkin.uncertainty.intervals import INTERVAL_METHODS
+from softkin.uncertainty.labelled import LABELLED_METHODS
+from softkin.uncertainty.regions import REGION_METHODS
+from softkin.uncertainty.stored_outputs import stored_outputs
+
+files, params, output, dataset = snakemake.input, snakemake.params, snakemake.output, snakemake.wildcards.dataset
+runs = [Run(*run) for run in params.runs]
+predictions = dict(zip(runs, files.predictions, strict=True))
+parameters = dict(zip([Run(*run) for run in params.searched], files.parameters, strict=True))
+methods = {name: INTERVAL_METHODS[name] for name in params.methods}
+intervals = dict(zip(methods, files.intervals, strict=True))
+# Methods for extrapolation have nothing to show on test.
+in_domain = {name: intervals[name] for name in methods if not methods[name].calibrated_on.is_for_extrapolation}
+
+
+def points():
+    """Errors of predictions."""
+    score_points(
+        files.table,
+        dataset=dataset,
+        predictions=predictions,
+        records=dict(zip(runs, files.records, strict=True)),
+        point=output.point,
+        markers=output.markers,
+    )
+    score_spaces(
+        files.table,
+        dataset=dataset,
+        parameters={model: parameters[Run(model, OUTER)] for model in params.compared},
+        chosen={model: predictions[Run(model, OUTER)] for model in params.compared},
+        others=next(iter(files.other_spaces), None),
+        output=output.spaces,
+    )
+
+
+def coverage():
+    """Coverage and scores of intervals and regions, in-domain and in extrapolation."""
+    outputs = stored_outputs(files, params)
+    score_intervals(
+        files.table,
+        dataset=dataset,
+        methods=methods,
+        intervals=intervals,
+        regions={name: REGION_METHODS[name] for name in params.regions},
+        outputs=outputs,
+        output=output.intervals,
+    )
+    conditional_coverage(
+        files.table,
+        dataset=dataset,
+        intervals=in_domain,
+        shown=shown_runs(files.choice),
+        confidence_levels=params.confidence_levels,
+        seed=params.seed,
+        output=output.conditional,
+    )
+    truth = {subset: read_subset(files.table, subset).positions for subset in SUBSETS}
+    score_alarms(outputs, truth, dataset=dataset, seed=params.seed, output=output.alarms)
+    score_extrapolation(
+        files.table,
+        dataset=dataset,
+        standardised_norm=params.robot["standardised_norm"],
+        methods=ExtrapolationMethods(
+            methods=methods,
+            intervals=intervals,
+            labelled=LABELLED_METHODS,
+            confidence_levels=params.confidence_levels,
+            seed=params.seed,
+        ),
+        predictions=predictions,
+        runs=shell_runs(runs, parameters, params.objective, params.robust_models),
+        output=output.extrapolation,
+    )
+
+
+with job(snakemake.log[0], f"score {dataset}"):
+    points()
+    coverage()
