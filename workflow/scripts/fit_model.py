@@ -2,11 +2,10 @@
 
 from softkin.core.files import read_json
 from softkin.core.job import job
-from softkin.core.runs import OUTER, PAPER, SEARCHED, TUNED
+from softkin.core.runs import INTERPOLATION, OUTER, PAPER, SEARCHED, TUNED
 from softkin.models import MODELS
 from softkin.training.fit import FitFiles, fit
 from softkin.training.kinematic_model import FitSettings, searched_settings
-from softkin.training.selection import INTERPOLATION
 from softkin.training.study import TuningSettings
 from softkin.training.tune import PresetFiles, Robot, SearchSettings, tune_table
 

@@ -9,6 +9,8 @@ from typing import NamedTuple
 PAPER, TUNED, OUTER = PRESETS = ("paper", "tuned", "outer")
 #: The presets that a study stands behind.
 SEARCHED = (TUNED, OUTER)
+#: What the deployed run is chosen for, besides extrapolation alone.
+INTERPOLATION, BOTH = "interpolation", "both"
 
 
 class Run(NamedTuple):

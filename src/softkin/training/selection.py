@@ -9,11 +9,10 @@ import numpy as np
 import pandas as pd
 
 from softkin.core.files import read_json
-from softkin.core.runs import OUTER, Run
+from softkin.core.runs import BOTH, INTERPOLATION, OUTER, Run
 from softkin.core.samples import EXTRAPOLATION, TEST
 from softkin.models.spec import PAPERS_RUN
 
-INTERPOLATION, BOTH = "interpolation", "both"
 CV, SHELL = "cv_mae_mm", "shell_mae_mm"
 #: Scores (mm) below this count as this in the geometric mean, whose logarithm has no bound at 0.
 NEGLIGIBLE_MM = 1e-9
