@@ -1,9 +1,10 @@
-"""Measure how well a run uses the machine: CPU seconds of fits over cores x wall seconds, and the ten slowest jobs.
+"""Measure how well a run uses the machine: CPU seconds of fits over cores x wall seconds, and the slowest jobs.
 
     python -m benchmarks.utilisation --cores 2 [--configfile config/test.yaml]
+    python -m benchmarks.utilisation --results results
 
-Runs the workflow from nothing in a temporary folder (the default configuration takes a quarter of an hour on two
-cores). CPU seconds are those of the tuning trials and of the fits themselves, imports and file work left out.
+Runs the workflow from nothing in a temporary folder. CPU seconds are those of the tuning trials and of all fits, refits
+among them, imports and file work left out, as each job read them off the system's clock and wrote them into its log.
 """
 
 from __future__ import annotations
@@ -16,41 +17,39 @@ import tempfile
 import time
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
 
-from softkin.core.files import read_json
+from softkin.core.clocks import used_by_log
 
 HOUSE = Path(__file__).resolve().parent.parent
-INTERVAL_RULES = ("tune_quantiles", "fit_quantiles", "refit", "calibrate_intervals", "score_intervals")
+SLOWEST = 20
 
 
-def fit_cpu_seconds(results: Path) -> float:
-    """CPU seconds of trials, fits and refits."""
-    seconds = sum(float(read_json(path)["cpu_seconds"]) for path in results.glob("**/tuned/parameters.json"))
-    seconds += sum(float(read_json(path)["fit_cpu_seconds"]) for path in results.glob("**/fit.json"))
-    for path in results.glob("*/refits.npz"):
-        with np.load(path) as archive:
-            seconds += float(archive["fit_cpu_seconds"])
-    return seconds
-
-
-def interval_share(benchmarks: Path) -> float:
-    """CPU seconds of the interval rules over those of all other rules that are benchmarked."""
-    seconds = {True: 0.0, False: 0.0}
-    for path in benchmarks.rglob("*.tsv"):
-        rule = path.relative_to(benchmarks).parts[0]
-        seconds[rule in INTERVAL_RULES] += float(pd.read_csv(path, sep="\t")["cpu_time"].iloc[0])
-    return seconds[True] / seconds[False]
-
-
-def slowest_jobs(benchmarks: Path, count: int = 10) -> pd.DataFrame:
-    """The jobs of longest wall time, from Snakemake's own benchmark files."""
+def jobs(results: Path) -> pd.DataFrame:
+    """Columns job, rule, wall_s, cpu_s, fit_cpu_s, memory_mb: a row for each job of a finished run that left a log."""
     rows = []
-    for path in benchmarks.rglob("*.tsv"):
-        timing = pd.read_csv(path, sep="\t").iloc[0]
-        rows.append({"job": path.relative_to(benchmarks).with_suffix("").as_posix(), "wall_s": timing["s"]})
-    return pd.DataFrame(rows).nlargest(count, "wall_s").round(1)
+    for log in sorted((results / "logs").rglob("*.log")):
+        used = used_by_log(log)
+        if used is None:
+            raise SystemExit(f"{log}: the job has not ended; run the workflow to its end first")
+        name = log.relative_to(results / "logs").with_suffix("")
+        timing = results / "benchmarks" / name.with_suffix(".tsv")
+        wall = float(pd.read_csv(timing, sep="\t")["s"].iloc[0]) if timing.is_file() else float("nan")
+        row = {"job": name.as_posix(), "rule": name.parts[0], "wall_s": wall}
+        rows.append(row | dict(zip(("cpu_s", "fit_cpu_s", "memory_mb"), used, strict=True)))
+    return pd.DataFrame(rows)
+
+
+def print_jobs(run: pd.DataFrame, cores: int, wall: float | None) -> None:
+    """Print what a run used: in all, by rule, and by its slowest jobs."""
+    cpu, fits = run["cpu_s"].sum(), run["fit_cpu_s"].sum()
+    print(f"{len(run)} jobs, {cpu:.0f} s of CPU, {fits:.0f} s of it in fits ({fits / cpu:.3f})")
+    if wall is not None:
+        print(f"wall {wall:.0f} s on {cores} cores; fits take {fits / (cores * wall):.3f} of the machine, and all jobs")
+        print(f"{cpu / (cores * wall):.3f}")
+    by_rule = run.groupby("rule")[["wall_s", "cpu_s", "fit_cpu_s"]].sum().sort_values("cpu_s", ascending=False)
+    print(by_rule.assign(jobs=run["rule"].value_counts()).round(1).to_string())
+    print(run.drop(columns="rule").nlargest(SLOWEST, "cpu_s").round(1).to_string(index=False))
 
 
 def main() -> None:
@@ -58,7 +57,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
     parser.add_argument("--cores", type=int, default=2)
     parser.add_argument("--configfile", nargs="*", default=[])
+    parser.add_argument("--results", type=Path, help="print what this finished run used, and run nothing")
     options = parser.parse_args()
+    if options.results:
+        print_jobs(jobs(options.results), options.cores, None)
+        return
     with tempfile.TemporaryDirectory() as folder:
         command = [sys.executable, "-m", "snakemake", "--cores", str(options.cores), "--directory", folder]
         command += ["--snakefile", str(HOUSE / "Snakefile"), "--quiet", "all"]
@@ -71,12 +74,8 @@ def main() -> None:
         start = time.perf_counter()
         subprocess.run(command, check=True, cwd=HOUSE, env=os.environ | {"PATH": path})
         again = time.perf_counter() - start
-        cpu = fit_cpu_seconds(Path(folder) / "results")
-        print(f"wall {wall:.0f} s on {options.cores} cores; a second run, with nothing to do, {again:.1f} s")
-        print(f"CPU of fits {cpu:.0f} s; share of the machine {cpu / (options.cores * wall):.3f}")
-        added = interval_share(Path(folder) / "results" / "benchmarks")
-        print(f"interval work adds {added:.1%} to the CPU time of the other benchmarked rules")
-        print(slowest_jobs(Path(folder) / "results" / "benchmarks").to_string(index=False))
+        print(f"a second run, with nothing to do, takes {again:.1f} s")
+        print_jobs(jobs(Path(folder) / "results"), options.cores, wall)
 
 
 if __name__ == "__main__":

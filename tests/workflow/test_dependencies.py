@@ -125,7 +125,9 @@ def finished(tmp_path_factory: pytest.TempPathFactory, mirror: Path) -> Finished
                 made.mkdir()
             else:
                 made.touch()
-    recorded = house.snakemake("--touch", "--forceall", more=configuration)  # the params of each job, the code among them
+    recorded = house.snakemake(
+        "--touch", "--forceall", more=configuration
+    )  # the params of each job, the code among them
     assert recorded.returncode == 0, recorded.stdout + recorded.stderr
     return Finished(house, configuration)
 

@@ -44,8 +44,6 @@ if config["when_unreachable"] == "simulate":
         retrieved={name: Path(f"results/{name}/raw") for name in config["datasets"]},
     )
 
-# What the paper printed, as tables.
-PUBLISHED = Path(workflow.basedir) / "resources" / "published"
 # For `--software-deployment-method conda`; unused otherwise.
 SOFTWARE = "../envs/softkin.yaml"
 

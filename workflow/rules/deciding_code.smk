@@ -73,7 +73,6 @@ def region_modules():
     return [module_of(REGION_METHODS[name].region) for name in config["regions"]]
 
 
-def template_hash():
-    """Hash of what the report is rendered with besides modules."""
-    folder = file_of("softkin.reporting.page").parent / "templates"
-    return sha256_of(sorted(path for path in folder.rglob("*") if path.is_file()))
+def content(pattern):
+    """Hash of the files of the repository that match a pattern: read by a script, and neither code nor results."""
+    return sha256_of(sorted(Path(workflow.basedir).glob(pattern)))

@@ -9,7 +9,6 @@ rule build_report:
         figures=of_every_dataset("results/{dataset}/figures"),
         campaign_figures="results/tables/figures",
         benchmarks=[benchmark for _, benchmark, _ in timed_jobs()],
-        citation=Path(workflow.basedir) / "CITATION.cff",
     output:
         report(
             REPORT,
@@ -27,6 +26,7 @@ rule build_report:
         jobs=timed_jobs(),
         config=config,
         code=code_of("build_report"),
-        templates=template_hash(),
+        templates=content("src/softkin/reporting/page/templates/**/*.*"),
+        citation=content("CITATION.cff"),
     script:
         "../scripts/build_report.py"

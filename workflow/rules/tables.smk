@@ -13,9 +13,6 @@ rule build_tables:
         description=of_every_dataset("results/{dataset}/dataset.json"),
         data_card=of_every_dataset("results/{dataset}/data_card.json"),
         parameters=of_every_dataset(run_files("parameters.json", SEARCHED)),
-        published=PUBLISHED / "point_metrics.csv",
-        subsets=PUBLISHED / "subsets.csv",
-        published_intervals=PUBLISHED / "interval_metrics.csv",
     output:
         headline=report(
             HEADLINE,
@@ -52,5 +49,6 @@ rule build_tables:
         objective=config["objective"],
         sources={name: config["sources"][name] for name in config["datasets"]},
         code=code_of("build_tables"),
+        published=content("resources/published/*.csv"),
     script:
         "../scripts/build_tables.py"

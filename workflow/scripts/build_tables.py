@@ -10,6 +10,7 @@ from softkin.reporting.titles import Titles
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 
 files, params = snakemake.input, snakemake.params
+published = Path(snakemake.scriptdir).parents[1] / "resources" / "published"
 kinds = ("point", "markers", "intervals", "choice", "conditional", "alarms", "extrapolation", "spaces")
 by_dataset = zip(*(files[kind] for kind in (*kinds, "description", "data_card")), strict=True)
 with job(snakemake.log[0], "build tables"):
@@ -18,7 +19,9 @@ with job(snakemake.log[0], "build tables"):
         sources=params.sources,
         parameters={tuple(study): path for study, path in zip(params.studies, files.parameters, strict=True)},
         objective=params.objective,
-        published=PublishedFiles(files.published, files.subsets, files.published_intervals),
+        published=PublishedFiles(
+            *(published / f"{name}.csv" for name in ("point_metrics", "subsets", "interval_metrics"))
+        ),
     )
     build_tables(
         tables,

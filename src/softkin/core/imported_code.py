@@ -18,6 +18,7 @@ PACKAGE = Path(__file__).parents[1]
 #: Modules that cannot change a result, and why.
 WITHOUT_EFFECT = {
     "softkin": "names the public face and the version",
+    "softkin.core.clocks": "what a job used",
     "softkin.core.durations": "words of the log",
     "softkin.core.errors": "what is said when there is no result",
     "softkin.core.files": "how a file is put in place, whatever it holds",

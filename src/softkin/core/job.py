@@ -11,6 +11,7 @@ from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
+from softkin.core.clocks import used
 from softkin.core.errors import SoftkinError
 
 logger = logging.getLogger("softkin")
@@ -51,6 +52,8 @@ def job(log: str, label: str) -> Iterator[None]:
         logger.exception("the job stopped")
         raise
     finally:
+        logger.handlers = [to_file]
+        logger.info("%s", used())
         logger.handlers = []
         logger.propagate = True
         logging.captureWarnings(False)

@@ -18,6 +18,7 @@ import pandas as pd
 from filelock import FileLock
 from optuna.trial import FrozenTrial, Trial, TrialState
 
+from softkin.core.clocks import counted_as_fit
 from softkin.core.errors import DataError
 from softkin.core.files import replacing
 from softkin.core.rows import sampled_rows
@@ -131,7 +132,8 @@ def run_study(samples: Samples, *, search: Search, settings: TuningSettings, fil
             study.sampler = optuna.samplers.TPESampler(
                 seed=settings.seed + ended, multivariate=True, constant_liar=False
             )
-            study.optimize(lambda trial: _score(trial, search), n_trials=1)
+            with counted_as_fit():
+                study.optimize(lambda trial: _score(trial, search), n_trials=1)
             ended += 1
             _report_progress(study, ended, settings.n_trials)
         return _result(study.get_trials(states=ENDED)[: settings.n_trials], mark, file.path)
