@@ -26,6 +26,6 @@ with job(snakemake.log[0], "build report"):
             {name: spec.title for name, spec in MODELS.items()},
             {name: method.title for name, method in methods.items()},
         ),
-        citation=Path(snakemake.scriptdir).parents[1] / "CITATION.cff",
+        citation=Path(snakemake.scriptdir).resolve().parents[1] / "CITATION.cff",
         report=snakemake.output[0],
     )

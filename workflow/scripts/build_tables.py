@@ -10,7 +10,7 @@ from softkin.reporting.titles import Titles
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 
 files, params = snakemake.input, snakemake.params
-published = Path(snakemake.scriptdir).parents[1] / "resources" / "published"
+published = Path(snakemake.scriptdir).resolve().parents[1] / "resources" / "published"
 kinds = ("point", "markers", "intervals", "choice", "conditional", "alarms", "extrapolation", "spaces")
 by_dataset = zip(*(files[kind] for kind in (*kinds, "description", "data_card")), strict=True)
 with job(snakemake.log[0], "build tables"):
