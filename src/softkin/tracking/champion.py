@@ -31,6 +31,7 @@ from softkin.tracking.store import (
     PARENT,
     Campaign,
     Record,
+    all_pages,
     client_of,
     common_tags,
     experiment_of,
@@ -128,7 +129,8 @@ def _version(
 ) -> str:
     """The version with this content, registered where there is none; it gets the alias."""
     content = hashlib.sha256(json.dumps([record.key, record.content], sort_keys=True).encode()).hexdigest()
-    same = [v for v in client.search_model_versions(f"name = '{name}'") if v.tags.get(CONTENT) == content]
+    versions = all_pages(client.search_model_versions, f"name = '{name}'")
+    same = [version for version in versions if version.tags.get(CONTENT) == content]
     if same:
         version = str(same[0].version)
     else:

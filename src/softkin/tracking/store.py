@@ -12,7 +12,7 @@ import logging
 import os
 import sqlite3
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -34,6 +34,8 @@ KEY, CONTENT, PARENT, NOTE = "softkin.key", "softkin.content", "mlflow.parentRun
 SQLITE = "sqlite:///"
 #: The store takes a thousand metrics a batch.
 BATCH = 900
+#: Entries that the store gives at once.
+PAGE = 1000
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,9 +163,20 @@ def put(client: MlflowClient, experiment: str, record: Record) -> str:
 
 
 def find(client: MlflowClient, experiment: str, **tags: str) -> list[Run]:
-    """The experiment's runs with these tags."""
+    """The experiment's runs with these tags, however many there are."""
     query = " and ".join(f"tags.`{name}` = '{value}'" for name, value in tags.items())
-    return list(client.search_runs([experiment], query, max_results=1000))
+    return list(all_pages(client.search_runs, [experiment], query))
+
+
+def all_pages(search: Callable[..., Any], *wanted: Any) -> Iterator[Any]:
+    """All that a `search_...` of MLflow's client finds by the arguments `wanted`: it gives a page at a time."""
+    token = None
+    while True:
+        page = search(*wanted, max_results=PAGE, page_token=token)
+        yield from page
+        token = page.token
+        if not token:
+            return
 
 
 def delete(client: MlflowClient, runs: Sequence[Run]) -> None:

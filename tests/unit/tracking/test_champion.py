@@ -18,7 +18,7 @@ import pytest
 from mlflow.exceptions import MlflowException
 
 from softkin.core.files import write_json
-from softkin.tracking import Campaign, log_champion
+from softkin.tracking import Campaign, log_champion, store
 from softkin.tracking.store import PARENT
 from tests.conftest import bending_arm
 from tests.unit.tracking.conftest import client_of_store
@@ -129,7 +129,11 @@ def test_other_content_is_a_version_that_gets_the_alias(
     np.testing.assert_array_equal(new.predict(named).filter(like="y_pred"), expected)
 
 
-def test_a_result_that_returns_gets_its_version_back(campaign: Campaign, files: dict[str, Any]) -> None:
+def test_a_result_that_returns_gets_its_version_back(
+    campaign: Campaign, files: dict[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Wherever it stands among the pages of versions."""
+    monkeypatch.setattr(store, "PAGE", 1)
     log_champion(campaign, **files)
     assert log_champion(replace(campaign, name="weekly"), **files) == "2"
     assert log_champion(campaign, **files) == "1"

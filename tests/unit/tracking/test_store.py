@@ -13,7 +13,7 @@ from mlflow.entities import ViewType
 
 from softkin.core.errors import StoreError
 from softkin.core.files import write_json
-from softkin.tracking import Campaign
+from softkin.tracking import Campaign, store
 from softkin.tracking.store import (
     BATCH,
     CONTENT,
@@ -110,6 +110,18 @@ def test_another_parent_is_no_other_content(client: MlflowClient, experiment: st
     run = put(client, experiment, child)
     assert put(client, experiment, replace(child, tags={**RECORD.tags, PARENT: "other"})) == run
     assert client.get_run(run).data.tags[PARENT] == "other"
+
+
+def test_runs_are_found_beyond_the_first_page(
+    client: MlflowClient, experiment: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Also where the last page is full."""
+    monkeypatch.setattr(store, "PAGE", 2)
+    logged = []
+    for place in range(5):
+        logged.append(put(client, experiment, replace(RECORD, key=f"nightly/finger/{place}")))
+        found = [run.info.run_id for run in find(client, experiment, kind="model")]
+        assert sorted(found) == sorted(logged)
 
 
 def test_a_run_that_was_cut_off_is_logged_again(client: MlflowClient, experiment: str) -> None:
