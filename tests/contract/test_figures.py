@@ -18,7 +18,8 @@ from softkin.core.files import sha256_of
 from softkin.core.samples import SUBSETS
 from softkin.data.table import to_table, write_table
 from softkin.reporting.figures import CAMPAIGN_FIGURES, FIGURES
-from softkin.reporting.figures.drawing import DPI, RUN_COLUMNS, draw
+from softkin.reporting.figures.drawing import RUN_COLUMNS, draw
+from softkin.reporting.figures.rendering import DPI
 from softkin.reporting.figures.spec import CampaignResults, DatasetResults, FigureSpec
 from softkin.reporting.figures.style import PAGE
 from tests.conftest import four_subsets

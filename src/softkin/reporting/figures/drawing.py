@@ -15,17 +15,7 @@ from softkin.reporting.figures.style import SETTINGS
 
 logger = logging.getLogger("softkin")
 
-DPI = 150
 RUN_COLUMNS = ["model", "preset", "interval_method"]
-
-
-def shrink(picture: Path) -> None:
-    """Reduce a PNG to the 256 colours that suit it best: a third of the size, and no visible difference."""
-    from PIL import Image
-
-    with Image.open(picture) as image:
-        small = image.convert("RGB").quantize(256, dither=Image.Dither.NONE)
-    small.save(picture, format="png")
 
 
 def draw(figures: Mapping[str, FigureSpec[Results]], results: Results, folder: Path) -> None:
@@ -34,6 +24,8 @@ def draw(figures: Mapping[str, FigureSpec[Results]], results: Results, folder: P
     A figure whose frame is empty (its methods or models were not run, or too few trials) is left out, and logged.
     """
     import matplotlib as mpl
+
+    from softkin.reporting.figures.rendering import render
 
     folder.mkdir(parents=True, exist_ok=True)
     index: list[dict[str, Any]] = []
@@ -44,13 +36,7 @@ def draw(figures: Mapping[str, FigureSpec[Results]], results: Results, folder: P
             continue
         frame.to_csv(folder / f"{name}.csv", index=False)
         with mpl.rc_context(SETTINGS):
-            figure = spec.plot(frame, results)
-            for ending, metadata in (("png", {"Software": None}), ("svg", {"Date": None})):
-                with replacing(folder / f"{name}.{ending}") as temporary:
-                    figure.savefig(temporary, format=ending, dpi=DPI, metadata=metadata)
-                    if ending == "png":
-                        shrink(temporary)
-                figure.set_layout_engine("none")  # its layout is computed; doing so again takes as long
+            render(spec.plot(frame, results), folder / name)
         runs = frame[RUN_COLUMNS].drop_duplicates().to_dict("records")
         index += [{"figure": name, "title": spec.title, "caption": spec.caption, **run} for run in runs]
         logger.info("figure %s drawn", name)

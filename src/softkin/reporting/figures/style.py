@@ -47,6 +47,7 @@ PAGE = 7.2
 SETTINGS: dict[Any, Any] = {
     "font.size": 9,
     "axes.titlesize": 9,
+    "axes.titley": 1.0,  # else matplotlib measures the axes in each draw, in case something stands above them
     "axes.labelsize": 9,
     "xtick.labelsize": 8,
     "ytick.labelsize": 8,

@@ -110,6 +110,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
 
 
 def _draw(panel: Axes, rows: pd.DataFrame) -> None:
+    from matplotlib.collections import LineCollection
     from matplotlib.patches import Rectangle
     from scipy.spatial import ConvexHull
 
@@ -119,9 +120,11 @@ def _draw(panel: Axes, rows: pd.DataFrame) -> None:
     for subset in SHOWN:
         of_subset, colour = rows[rows["subset"] == subset], SUBSET_COLOURS[subset]
         true, guess = (of_subset[[f"{name}_1", f"{name}_2"]].to_numpy() for name in ("true", "predicted"))
-        panel.plot(*np.stack([true, guess], axis=1).transpose(2, 1, 0), color=colour, linewidth=0.4, alpha=0.5)
-        panel.plot(*true.T, "o", color=LIGHT, markersize=3)
-        panel.plot(*guess.T, "o", color=colour, markersize=1.6)
+        joined = np.stack([true, guess], axis=1)
+        look: dict[str, Any] = {"linewidths": 0.4, "alpha": 0.5, "capstyle": "projecting", "rasterized": True}
+        panel.add_collection(LineCollection(list(joined), colors=colour, zorder=2, **look))
+        panel.plot(*true.T, "o", color=LIGHT, markersize=3, rasterized=True)
+        panel.plot(*guess.T, "o", color=colour, markersize=1.6, rasterized=True)
         for row in of_subset[of_subset["is_boxed"]].itertuples() if "lower_1" in of_subset else ():
             size = (row.upper_1 - row.lower_1, row.upper_2 - row.lower_2)
             if np.isfinite(size).all():

@@ -11,7 +11,8 @@ import pytest
 from PIL import Image
 
 from softkin.reporting.figures import FIGURES
-from softkin.reporting.figures.drawing import DPI, RUN_COLUMNS, draw
+from softkin.reporting.figures.drawing import RUN_COLUMNS, draw
+from softkin.reporting.figures.rendering import DPI
 from softkin.reporting.figures.spec import DatasetResults
 from softkin.reporting.figures.style import PAGE
 from tests.unit.reporting.figures.conftest import RUNS

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pandas as pd
+from sklearn.ensemble import RandomForestRegressor
+from sklearn.inspection import permutation_importance
 
-from softkin.reporting.figures.importance import frame, plot
+from softkin.reporting.figures.importance import N_REPEATS, frame, permutation_drops, plot
 from softkin.reporting.figures.spec import DatasetResults
 from tests.unit.reporting.figures.drawn import bars
 
@@ -32,3 +34,12 @@ def test_trials_that_are_all_alike_say_nothing(results: DatasetResults) -> None:
         study[["param_kind", "param_depth", "param_rate"]] = 1.0
         study.to_csv(path, index=False)
     assert frame(results).empty
+
+
+def test_drops_are_those_of_scikit_learn_to_the_bit() -> None:
+    rng = np.random.default_rng(0)
+    numbers, score = rng.standard_normal((40, 3)), rng.standard_normal(40)
+    numbers[::3, 1] = np.nan
+    forest = RandomForestRegressor(32, random_state=0).fit(numbers, score)
+    theirs = permutation_importance(forest, numbers, score, n_repeats=N_REPEATS, random_state=0)
+    np.testing.assert_array_equal(permutation_drops(numbers, score), theirs.importances)
