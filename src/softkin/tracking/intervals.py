@@ -11,6 +11,7 @@ import pandas as pd
 from softkin.core.samples import TEST
 from softkin.tracking.figure_index import content_of, shown_in
 from softkin.tracking.store import (
+    KEY,
     NOTE,
     PARENT,
     Campaign,
@@ -58,7 +59,7 @@ def log_intervals(
     tags = common_tags(campaign, described)
     experiment = experiment_of(client, described["dataset"], campaign.artifacts)
     shown = shown_in(figures)
-    kept = set()
+    keys, there = set(), find(client, experiment, campaign=campaign.name, kind="intervals")
     table = pd.read_csv(metrics)
     # All shapes of joint region around a model share a run: each has one row per subset and level.
     marginal = set(table.loc[table["coordinate"] == "mean_informative", "interval_method"])
@@ -66,10 +67,11 @@ def log_intervals(
     for (model, preset, method), rows in table.groupby(["model", "preset", "run"]):
         parent = parents.get(f"{model}/{preset}", parents["campaign"])
         key = (str(model), str(preset), str(method))
-        kept.add(put(client, experiment, _record(campaign, tags, key, rows, parent, shown.get(key, []))))
-    logged = find(client, experiment, campaign=campaign.name, kind="intervals")
-    delete(client, [run for run in logged if run.info.run_id not in kept])
-    return len(kept)
+        record = _record(campaign, tags, key, rows, parent, shown.get(key, []))
+        put(client, experiment, record, there)
+        keys.add(record.key)
+    delete(client, [run for run in there if run.data.tags[KEY] not in keys])
+    return len(keys)
 
 
 def _record(

@@ -19,6 +19,7 @@ from softkin.core.samples import EXTRAPOLATION, TEST
 from softkin.tracking.figure_index import content_of, shown_in
 from softkin.tracking.saved_view import NAME, TAG, saved_view
 from softkin.tracking.store import (
+    KEY,
     NOTE,
     PARENT,
     Campaign,
@@ -79,15 +80,16 @@ def log_dataset(
         client.set_experiment_tag(experiment, tag, value)
     shown = shown_in(figures)
     parent = put(client, experiment, _campaign_record(campaign, described, shown.get(("", "", ""), [])))
-    logged = {"campaign": parent}
+    logged, keys = {"campaign": parent}, set()
+    there = find(client, experiment, campaign=campaign.name, kind="model")
     for place, (run, files) in enumerate(runs.items(), start=1):
         model, preset = run
         of_run = scores[(scores["model"] == model) & (scores["preset"] == preset)]
         model_run = _ModelRun(Run(model, preset), of_run, files, shown.get((model, preset, ""), []))
         record = _record(campaign, described, model_run, parent, place)
-        logged[f"{model}/{preset}"] = put(client, experiment, record)
-    children = find(client, experiment, campaign=campaign.name, kind="model")
-    delete(client, [child for child in children if child.info.run_id not in logged.values()])
+        logged[f"{model}/{preset}"] = put(client, experiment, record, there)
+        keys.add(record.key)
+    delete(client, [child for child in there if child.data.tags[KEY] not in keys])
     return logged
 
 

@@ -126,10 +126,14 @@ def experiment_of(client: MlflowClient, dataset: str, artifacts: str) -> str:
     return str(client.create_experiment(dataset, artifact_location=location))
 
 
-def put(client: MlflowClient, experiment: str, record: Record) -> str:
-    """Log `record` unless a run of the same content is there; return the id of the run. Runs of other content go."""
+def put(client: MlflowClient, experiment: str, record: Record, there: Sequence[Run] | None = None) -> str:
+    """Log `record` unless a run of the same content is there; return the id of the run. Runs of other content go.
+
+    `there` are runs among which those of the record's key are; None: they are looked up.
+    """
     content = hashlib.sha256(json.dumps(record.content, sort_keys=True).encode()).hexdigest()
-    old = find(client, experiment, **{KEY: record.key})
+    there = find(client, experiment, **{KEY: record.key}) if there is None else there
+    old = [run for run in there if run.data.tags.get(KEY) == record.key]
     current = [run for run in old if run.data.tags.get(CONTENT) == content and run.info.status == "FINISHED"]
     if current:
         delete(client, [run for run in old if run is not current[0]])
@@ -143,10 +147,9 @@ def put(client: MlflowClient, experiment: str, record: Record) -> str:
     now = int(time.time() * 1000)
     metrics = [Metric(name, value, now, 0) for name, value in record.metrics.items()]
     metrics += [Metric(name, value, now, step) for name, step, value in record.curves]
-    for start in range(0, len(metrics), BATCH):
-        client.log_batch(run_id, metrics=metrics[start : start + BATCH])
-    if record.params:
-        client.log_batch(run_id, params=[Param(name, str(value)) for name, value in record.params.items()])
+    params = [Param(name, str(value)) for name, value in record.params.items()]
+    for start in range(0, max(len(metrics), 1), BATCH):
+        client.log_batch(run_id, metrics=metrics[start : start + BATCH], params=params if start == 0 else ())
     if record.inputs:
         client.log_inputs(run_id, list(record.inputs))
     for file in record.files:
