@@ -12,13 +12,13 @@ import numpy as np
 import pandas as pd
 from sklearn.pipeline import make_pipeline
 from sklearn.preprocessing import StandardScaler
-from threadpoolctl import threadpool_limits
 
 from softkin.core.bounds import bounds_frame
 from softkin.core.clocks import counted_as_fit
 from softkin.core.files import replacing, write_json
 from softkin.core.job import stopwatch
 from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, VALIDATION, Array, Params, Samples
+from softkin.core.threads import limited_threads
 from softkin.data.table import read_subset
 from softkin.models.quantile.spec import QuantileSpec
 
@@ -83,7 +83,7 @@ def fit_quantiles(table: str | Path, *, regressor: QuantileModel, files: Quantil
         regressor: the unfitted quantile regressors of all coordinates.
         files: where they go.
     """
-    with stopwatch() as watch, threadpool_limits(regressor.threads), counted_as_fit():
+    with stopwatch() as watch, limited_threads(regressor.threads), counted_as_fit():
         regressor.fit(read_subset(table, TRAIN))
     with replacing(files.model) as temporary:
         joblib.dump(regressor, temporary, compress=3)

@@ -11,11 +11,11 @@ from typing import Any
 from sklearn.exceptions import ConvergenceWarning
 from sklearn.pipeline import make_pipeline
 from sklearn.preprocessing import StandardScaler
-from threadpoolctl import threadpool_limits
 
 from softkin.core.clocks import counted_as_fit
 from softkin.core.rows import sampled_rows
 from softkin.core.samples import Params, Samples
+from softkin.core.threads import limited_threads
 from softkin.models.estimators.kinematic_regressor import KinematicRegressor
 from softkin.models.spec import ModelSpec
 from softkin.models.target_spaces import TARGET_SPACES
@@ -76,7 +76,7 @@ def fit_quietly(estimator: Any, samples: Samples, threads: int) -> int:
 
     The bounds are deliberate (they limit the time of a fit), so their warnings are counted, not printed.
     """
-    with warnings.catch_warnings(record=True) as caught, threadpool_limits(threads), counted_as_fit():
+    with warnings.catch_warnings(record=True) as caught, limited_threads(threads), counted_as_fit():
         warnings.simplefilter("always")
         estimator.fit(samples.commands, samples.positions)
     stopped = [w for w in caught if issubclass(w.category, ConvergenceWarning)]

@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from threadpoolctl import threadpool_limits
 
 from softkin.core.files import replacing
 from softkin.core.samples import SUBSETS, TEST, TRAIN, Array, Samples, coordinate_columns
+from softkin.core.threads import limited_threads
 from softkin.data.table import read_subset
 from softkin.models.spec import ModelSpec
 
@@ -51,7 +51,7 @@ def predict(
     """
     train = read_subset(table, TRAIN)
     frames = []
-    with threadpool_limits(threads):
+    with limited_threads(threads):
         for subset in SUBSETS:
             commands = (train if subset == TRAIN else read_subset(table, subset)).commands
             frames.append(_frame(subset, np.asarray(estimator.predict(commands))))

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
 from softkin.core.errors import DataError
 from softkin.core.files import replacing, write_json
@@ -14,6 +13,7 @@ from softkin.core.folds import Folds, grouped_folds
 from softkin.core.metrics.pinball import pinball_losses
 from softkin.core.runs import PAPERS_LEVEL
 from softkin.core.samples import TRAIN, Array, Params, Samples, informative_coordinates
+from softkin.core.threads import limited_threads
 from softkin.data.table import read_subset
 from softkin.models.quantile.spec import QuantileSpec
 from softkin.training.fit_quantiles import QuantileModel
@@ -55,7 +55,7 @@ def pinball_errors(
     """
     for fitted_rows, scored_rows in folds:
         model = QuantileModel(spec, params, [PAPERS_LEVEL], seed, threads)
-        with threadpool_limits(threads):
+        with limited_threads(threads):
             model.fit(Samples(samples.commands[fitted_rows], samples.positions[fitted_rows]))
         quantiles: Array = model.predict(samples.commands[scored_rows])[0]
         alpha = 1 - PAPERS_LEVEL
