@@ -51,7 +51,7 @@ def main() -> None:
                     search=SearchSettings(
                         {TUNED: tuning["n_trials"]}, [TUNED], tuning["max_markers"], [], config["target_spaces"]
                     ),
-                    file=StudyFile(Path(folder) / "study.db", ""),
+                    file=StudyFile(Path(folder) / "study.journal", ""),
                     threads=1,
                 )
             pruned = (result.trials["state"] == "PRUNED").sum()

@@ -16,6 +16,7 @@ import numpy as np
 import optuna
 import pandas as pd
 from filelock import FileLock
+from optuna.storages.journal import JournalFileBackend, JournalFileOpenLock, JournalStorage
 from optuna.trial import FrozenTrial, Trial, TrialState
 
 from softkin.core.clocks import counted_as_fit
@@ -24,6 +25,7 @@ from softkin.core.files import replacing
 from softkin.core.rows import sampled_rows
 from softkin.core.samples import Params, Samples
 from softkin.data.table import content_hash
+from softkin.training.journal import heal, is_of
 
 logger = logging.getLogger("softkin")
 
@@ -95,7 +97,7 @@ class Search:
 
 @dataclass(frozen=True, slots=True)
 class StudyFile:
-    """Where a study lives, and the hash of the `code` that decides its trials."""
+    """Where a study lives (a journal), and the hash of the `code` that decides its trials."""
 
     path: str | Path
     code: str
@@ -106,9 +108,10 @@ def run_study(samples: Samples, *, search: Search, settings: TuningSettings, fil
 
     A trial is pruned as soon as its running mean is too large beside the others', or an error is not finite.
 
-    A study is resumed to the bit: a killed run leaves its ended trials in the file; the next run marks the unfinished
-    trial as failed and draws it again from a sampler seeded by the number of ended trials, and so ends with the same
-    trials as an undisturbed run. A file of another fingerprint is replaced.
+    A study is resumed to the bit: a killed run leaves its ended trials in the file; the next run cuts off a record that
+    is torn, marks the unfinished trial as failed and draws it again from a sampler seeded by the number of ended
+    trials, and so ends with the same trials as an undisturbed run. A first trial that waits is taken as it is. A file
+    of another fingerprint, or that is no journal, is replaced.
 
     Raises:
         DataError: no trial could be scored.
@@ -136,7 +139,7 @@ def run_study(samples: Samples, *, search: Search, settings: TuningSettings, fil
                 study.optimize(lambda trial: _score(trial, search), n_trials=1)
             ended += 1
             _report_progress(study, ended, settings.n_trials)
-        return _result(study.get_trials(states=ENDED)[: settings.n_trials], mark, file.path)
+        return _result(study.get_trials(deepcopy=False, states=ENDED)[: settings.n_trials], mark, file.path)
 
 
 def _score(trial: Trial, search: Search) -> float:
@@ -160,16 +163,30 @@ def _score(trial: Trial, search: Search) -> float:
     return float(np.mean(errors))
 
 
+class _NoLock(JournalFileOpenLock):
+    """Locks nothing: the process holds the study already, and a lock that a killed one left would hold up the next."""
+
+    def acquire(self) -> bool:
+        return True
+
+    def release(self) -> None:
+        pass
+
+
+def _journal(path: Path) -> JournalStorage:
+    return JournalStorage(JournalFileBackend(str(path), _NoLock(str(path))))
+
+
 def _open_study(path: Path, mark: str) -> optuna.Study:
     """The study of the fingerprint `mark`; where there is none, a new one replaces the file in one step."""
     name = mark[:16]
-    pruner = optuna.pruners.PercentilePruner(KEPT_PERCENT, n_startup_trials=STARTUP_TRIALS)
-    if not path.exists() or name not in optuna.get_all_study_names(f"sqlite:///{path}"):
+    if is_of(path, name):
+        heal(path)
+    else:
         with replacing(path) as temporary:
-            storage = optuna.storages.RDBStorage(f"sqlite:///{temporary}")
-            optuna.create_study(storage=storage, study_name=name)
-            storage.engine.dispose()
-    return optuna.load_study(study_name=name, storage=f"sqlite:///{path}", pruner=pruner)
+            optuna.create_study(storage=_journal(temporary), study_name=name)
+    pruner = optuna.pruners.PercentilePruner(KEPT_PERCENT, n_startup_trials=STARTUP_TRIALS)
+    return optuna.load_study(study_name=name, storage=_journal(path), pruner=pruner)
 
 
 def _report_progress(study: optuna.Study, ended: int, total: int) -> None:

@@ -128,7 +128,7 @@ def possible_spaces(samples: Samples, spaces: Sequence[str], robot: Robot) -> li
 
 @dataclass(frozen=True, slots=True)
 class PresetFiles:
-    """Files of one preset: its `study` (SQLite), the best `parameters` (JSON) and all `trials` (CSV)."""
+    """Files of one preset: its `study` (a journal), the best `parameters` (JSON) and all `trials` (CSV)."""
 
     study: str | Path
     parameters: str | Path

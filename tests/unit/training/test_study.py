@@ -73,13 +73,13 @@ def test_rows_of_a_trial_are_bounded_distinct_and_in_order(max_rows: int) -> Non
 
 
 def test_the_number_of_trials_is_a_total_and_a_longer_study_continues(tmp_path: Path) -> None:
-    short = study(tmp_path / "a.db", tuning=replace(SETTINGS, n_trials=5))
-    again = study(tmp_path / "a.db", tuning=replace(SETTINGS, n_trials=5))
+    short = study(tmp_path / "a.journal", tuning=replace(SETTINGS, n_trials=5))
+    again = study(tmp_path / "a.journal", tuning=replace(SETTINGS, n_trials=5))
     pd.testing.assert_frame_equal(short.trials, again.trials)
-    longer = study(tmp_path / "a.db")
+    longer = study(tmp_path / "a.journal")
     assert len(longer.trials) == 8
-    pd.testing.assert_frame_equal(untimed(longer.trials), untimed(study(tmp_path / "b.db").trials))
-    shorter = study(tmp_path / "a.db", tuning=replace(SETTINGS, n_trials=5))
+    pd.testing.assert_frame_equal(untimed(longer.trials), untimed(study(tmp_path / "b.journal").trials))
+    shorter = study(tmp_path / "a.journal", tuning=replace(SETTINGS, n_trials=5))
     pd.testing.assert_frame_equal(shorter.trials, short.trials, check_dtype=False)
 
 
@@ -100,9 +100,9 @@ def test_a_study_belongs_to_its_fingerprint() -> None:
 
 
 def test_another_seed_starts_a_new_study(tmp_path: Path) -> None:
-    study(tmp_path / "a.db")
-    other = study(tmp_path / "a.db", tuning=replace(SETTINGS, seed=4))
-    fresh = study(tmp_path / "b.db", tuning=replace(SETTINGS, seed=4))
+    study(tmp_path / "a.journal")
+    other = study(tmp_path / "a.journal", tuning=replace(SETTINGS, seed=4))
+    fresh = study(tmp_path / "b.journal", tuning=replace(SETTINGS, seed=4))
     pd.testing.assert_frame_equal(untimed(other.trials), untimed(fresh.trials))
 
 
@@ -122,7 +122,7 @@ def parabola(*, first_trials: tuple[Mapping[str, Any], ...] = (), worst: float =
 def test_the_first_trials_come_first_and_the_best_complete_one_wins(tmp_path: Path) -> None:
     starts = ({"x": -3.0}, {"x": 1.5}, {"x": 4.0})
     search = parabola(first_trials=starts)
-    file = StudyFile(tmp_path / "a.db", "code")
+    file = StudyFile(tmp_path / "a.journal", "code")
     result = run_study(bending_arm(20), search=search, settings=replace(SETTINGS, n_trials=3), file=file)
     assert result.trials["param_x"].tolist() == [-3.0, 1.5, 4.0]
     assert (result.params, result.score_mm) == ({"x": 1.5}, 0.25)
@@ -134,7 +134,7 @@ def test_the_first_trials_come_first_and_the_best_complete_one_wins(tmp_path: Pa
 
 def test_a_trial_of_infinite_error_is_pruned_and_has_no_score(tmp_path: Path) -> None:
     search = parabola(first_trials=({"x": 0.0}, {"x": 9.0}), worst=5.0)
-    file = StudyFile(tmp_path / "a.db", "code")
+    file = StudyFile(tmp_path / "a.journal", "code")
     result = run_study(bending_arm(20), search=search, settings=replace(SETTINGS, n_trials=2), file=file)
     assert result.trials["state"].tolist() == ["COMPLETE", "PRUNED"]
     assert result.trials["score_mm"].tolist() == pytest.approx([1.0, np.nan], nan_ok=True)
@@ -145,15 +145,15 @@ def test_a_trial_of_infinite_error_is_pruned_and_has_no_score(tmp_path: Path) ->
 
 
 def test_a_study_without_any_score_is_an_error_that_names_its_file(tmp_path: Path) -> None:
-    file = StudyFile(tmp_path / "a.db", "code")
+    file = StudyFile(tmp_path / "a.journal", "code")
     with pytest.raises(DataError, match="none of 2 trials could be scored") as caught:
         run_study(bending_arm(20), search=parabola(worst=-10.0), settings=replace(SETTINGS, n_trials=2), file=file)
-    assert caught.value.where == str(tmp_path / "a.db")
+    assert caught.value.where == str(tmp_path / "a.journal")
     assert caught.value.fix
 
 
 def test_the_best_trial_is_a_whole_cross_validation(tmp_path: Path) -> None:
-    result = study(tmp_path / "a.db", "rf", replace(SETTINGS, n_trials=14))
+    result = study(tmp_path / "a.journal", "rf", replace(SETTINGS, n_trials=14))
     complete = result.trials[result.trials["state"] == "COMPLETE"]
     assert result.score_mm == complete["score_mm"].min()
     assert (complete["n_parts_scored"] == 3).all()
@@ -181,24 +181,25 @@ write_json(sys.argv[3] + ".best", {"params": result.params, "score": result.scor
 
 
 def worker(folder: Path, name: str, model: str) -> subprocess.Popen[bytes]:
-    command = [sys.executable, "-c", WORKER, str(folder / f"{name}.db"), model, str(folder / f"{name}.csv")]
+    command = [sys.executable, "-c", WORKER, str(folder / f"{name}.journal"), model, str(folder / f"{name}.csv")]
     root = Path(__file__).parents[3]
-    return subprocess.Popen(command, cwd=root, env={**os.environ, "PYTHONPATH": str(root)}, stderr=subprocess.DEVNULL)
+    env = {**os.environ, "PYTHONPATH": f"{root / 'src'}{os.pathsep}{root}"}
+    return subprocess.Popen(command, cwd=root, env=env, stderr=subprocess.DEVNULL)
 
 
-def kill_often(folder: Path, model: str, kills: int, rng: random.Random, longest: float) -> int:
-    """Run a study, killing it -9 at random moments after its file is there; return how often that hit it."""
-    hits = 0
-    for _ in range(kills):
-        process = worker(folder, "killed", model)
-        while not (folder / "killed.db").exists() and process.poll() is None:
-            time.sleep(0.005)
-        time.sleep(rng.uniform(0.0, longest))
-        hits += process.poll() is None
-        process.send_signal(signal.SIGKILL)
-        process.wait()
-    assert worker(folder, "killed", model).wait() == 0
-    return hits
+def size_of(journal: Path) -> int:
+    return journal.stat().st_size if journal.exists() else -1
+
+
+def kill_at(folder: Path, model: str, size: float) -> bool:
+    """Run a study and kill it -9 as soon as its journal has `size` bytes; whether that hit it."""
+    process = worker(folder, "killed", model)
+    while size_of(folder / "killed.journal") < size and process.poll() is None:
+        time.sleep(0.001)
+    hit = process.poll() is None
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    return hit
 
 
 def assert_same_end(folder: Path) -> None:
@@ -209,7 +210,10 @@ def assert_same_end(folder: Path) -> None:
 
 def test_a_killed_study_ends_as_an_undisturbed_one(tmp_path: Path) -> None:
     assert worker(tmp_path, "undisturbed", "rf").wait() == 0
-    assert kill_often(tmp_path, "rf", kills=3, rng=random.Random(1), longest=2.5) >= 2
+    whole = size_of(tmp_path / "undisturbed.journal")
+    hits = [kill_at(tmp_path, "rf", share * whole) for share in (0.0, 0.3, 0.8)]
+    assert all(hits)
+    assert worker(tmp_path, "killed", "rf").wait() == 0
     assert_same_end(tmp_path)
 
 
@@ -217,13 +221,22 @@ def test_a_killed_study_ends_as_an_undisturbed_one(tmp_path: Path) -> None:
 @pytest.mark.timeout(1800)
 @pytest.mark.parametrize("model", MODELS)
 def test_campaign_kill_at_any_moment(tmp_path: Path, model: str) -> None:
-    """Twelve kills from the first millisecond on, study creation included, for every model."""
+    """Twelve kills for every model: two while it starts, study creation included, ten as soon as it has written a
+    random number of bytes more. After every other one the journal loses some last bytes, as in a power cut.
+    """
     rng = random.Random(f"campaign {model}")
     assert worker(tmp_path, "undisturbed", model).wait() == 0
-    for _ in range(12):
+    journal, whole = tmp_path / "killed.journal", size_of(tmp_path / "undisturbed.journal")
+    for _ in range(2):
         process = worker(tmp_path, "killed", model)
-        time.sleep(rng.uniform(0.5, 5.0))
+        time.sleep(rng.uniform(0.3, 2.5))
         process.send_signal(signal.SIGKILL)
         process.wait()
+    hits = 0
+    for kill in range(10):
+        hits += kill_at(tmp_path, model, size_of(journal) + rng.uniform(0.0, 2.0) * whole / SETTINGS.n_trials)
+        if kill % 2:
+            os.truncate(journal, max(0, size_of(journal) - rng.randrange(1, 300)))
     assert worker(tmp_path, "killed", model).wait() == 0
+    print(f"{model}: {hits} of 10 kills hit a study at work; journal {size_of(journal)} bytes, undisturbed {whole}")
     assert_same_end(tmp_path)
