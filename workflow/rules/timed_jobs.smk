@@ -17,15 +17,15 @@ def timed_jobs():
         per_dataset.insert(0, "refit")
     jobs = []
     for dataset in config["datasets"]:
-        for rule, (models, records) in per_model.items():
+        for name, (models, records) in per_model.items():
             for model in models:
-                benchmark = f"results/benchmarks/{rule}/{dataset}/{model}.tsv"
+                benchmark = f"results/benchmarks/{name}/{dataset}/{model}.tsv"
                 names = {"dataset": dataset, "model": model, "quantile_model": model}
                 jobs.append(
-                    ([rule, dataset, model], benchmark, expand(records, **names))
+                    ([name, dataset, model], benchmark, expand(records, **names))
                 )
-        for rule in per_dataset:
+        for name in per_dataset:
             jobs.append(
-                ([rule, dataset, ""], f"results/benchmarks/{rule}/{dataset}.tsv", [])
+                ([name, dataset, ""], f"results/benchmarks/{name}/{dataset}.tsv", [])
             )
     return jobs

@@ -42,7 +42,7 @@ def valley() -> Search:
 
 
 def run(path: Path, settings: TuningSettings = SETTINGS) -> TuningResult:
-    return run_study(ROWS, search=valley(), settings=settings, file=StudyFile(path, []))
+    return run_study(ROWS, search=valley(), settings=settings, file=StudyFile(path, "code"))
 
 
 @pytest.fixture(autouse=True)
