@@ -6,7 +6,7 @@ export MLFLOW_DISABLE_TELEMETRY := true
 # Things run side by side, one core each: with more threads than that they wait for each other most of the time.
 export OMP_NUM_THREADS := 1
 
-.PHONY: run unlock new-robot test test-workflow test-others test-run lint ui store report gallery snakemake-report campaigns benchmark benchmark-large benchmark-pruning benchmark-shells coverage numbers results-page standins
+.PHONY: run unlock new-robot test test-workflow test-others test-run lint ui store report gallery snakemake-report campaigns benchmark benchmark-large benchmark-pruning benchmark-shells benchmark-figures coverage numbers results-page standins
 .PHONY: environment clean ui-screenshot
 
 run: .venv/installed
@@ -87,6 +87,10 @@ benchmark-pruning: .venv/installed
 # Whether intervals made from shells of `train` hold outside it, on simulated robots.
 benchmark-shells: .venv/installed
 	$(BIN)/python benchmarks/shells.py
+
+# Whether the figures of a robot of 100,000 rows stay under 500 MB.
+benchmark-figures: .venv/installed
+	$(BIN)/python -m benchmarks.figures
 
 # How long the stand-ins of all datasets take to simulate.
 standins: .venv/installed

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,6 +12,7 @@ from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, Array
 from softkin.data.table import read_subset
 from softkin.models.spec import PAPERS_RUN
 from softkin.reporting.figures.reading import deployed, mean_marker_errors
+from softkin.reporting.figures.sampling import drawn_rows
 from softkin.reporting.figures.spec import DatasetResults, FigureSpec
 from softkin.reporting.figures.style import (
     BLACK,
@@ -32,34 +34,37 @@ N_PARTS = 12
 
 
 def frame(results: DatasetResults) -> pd.DataFrame:
-    """Columns model, preset, interval_method, subset, distance, error_mm: a row per row of `test` and `extrapolation`
-    of the deployed model and of the paper's.
+    """Columns model, preset, interval_method, subset, distance, error_mm: a row per drawn row of `test` and
+    `extrapolation`, of the deployed model and of the paper's.
 
     `distance` is that of the nearest command of `train`, each command in units of its standard deviation on `train`;
     `error_mm` the distance between true and predicted marker, averaged over the moving markers.
     """
     best = deployed(results)
     runs = [*([best.run] if best else []), PAPERS_RUN]
+    commands = {subset: read_subset(results.table, subset).commands for subset in (TEST, EXTRAPOLATION)}
+    rows = {subset: drawn_rows(len(of_subset)) for subset, of_subset in commands.items()}
+    distance = distances(results, [of_subset[rows[subset]] for subset, of_subset in commands.items()])
     parts = [
         pd.DataFrame(
-            {"distance": distances(results, subset), "error_mm": mean_marker_errors(results, run, subset)}
+            {"distance": of_subset, "error_mm": mean_marker_errors(results, run, subset)[rows[subset]]}
         ).assign(model=run[0], preset=run[1], interval_method="", subset=subset)
         for run in dict.fromkeys(runs)
         if run in results.predictions
-        for subset in (TEST, EXTRAPOLATION)
+        for subset, of_subset in zip(commands, distance, strict=True)
     ]
     return pd.concat(parts, ignore_index=True) if parts else pd.DataFrame()
 
 
-def distances(results: DatasetResults, subset: str) -> Array:
-    """Distance (n_rows,) to the nearest command of `train`, in standardised command space."""
+def distances(results: DatasetResults, commands: Sequence[Array]) -> list[Array]:
+    """Distances (n_rows,) of several sets of commands to the nearest of `train`, in standardised command space."""
     from sklearn.neighbors import NearestNeighbors
     from sklearn.preprocessing import StandardScaler
 
     train = read_subset(results.table, TRAIN).commands
     scaler = StandardScaler().fit(train)
     finder = NearestNeighbors(n_neighbors=1).fit(scaler.transform(train))
-    return np.asarray(finder.kneighbors(scaler.transform(read_subset(results.table, subset).commands))[0][:, 0])
+    return [np.asarray(finder.kneighbors(scaler.transform(rows))[0][:, 0]) for rows in commands]
 
 
 def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
@@ -84,7 +89,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
         sample(subset, color=SUBSET_COLOURS[subset], marker=".", linestyle="") for subset in (TEST, EXTRAPOLATION)
     ]
     legend_below(figure, [*samples, sample("median of rows of like distance", color=BLACK, linewidth=1.4)], 3)
-    heading(figure, results, "error against distance from train")
+    heading(figure, results, "error against distance from train", rows_of=(TEST, EXTRAPOLATION))
     return figure
 
 

@@ -10,6 +10,7 @@ import pandas as pd
 from softkin.core.samples import SUBSETS, TRAIN, coordinate_columns, informative_coordinates
 from softkin.data.table import read_subset
 from softkin.reporting.figures.reading import shown_coordinate
+from softkin.reporting.figures.sampling import evenly_spaced
 from softkin.reporting.figures.spec import DatasetResults, FigureSpec
 from softkin.reporting.figures.style import PAGE, SUBSET_COLOURS, heading, legend_below, panels, sample
 
@@ -19,7 +20,8 @@ if TYPE_CHECKING:
 
 def frame(results: DatasetResults) -> pd.DataFrame:
     """Columns subset, coordinate, position_mm, share: sorted positions of the marker that moves furthest on `train`,
-    and the share of rows up to each. Its constant coordinates are left out; no run is shown.
+    and the share of rows up to each; of very many rows, some evenly spaced ones. Its constant coordinates are left out;
+    no run is shown.
     """
     train = read_subset(results.table, TRAIN).positions
     moving, names = informative_coordinates(train), coordinate_columns(train.shape[1] // 3)
@@ -27,9 +29,10 @@ def frame(results: DatasetResults) -> pd.DataFrame:
     parts = []
     for subset in SUBSETS:
         positions = read_subset(results.table, subset).positions
-        share = np.arange(1, len(positions) + 1) / len(positions)
+        places = evenly_spaced(len(positions))
+        share = (places + 1) / len(positions)
         for i in (i for i in range(first, first + 3) if moving[i]):
-            part = pd.DataFrame({"position_mm": np.sort(positions[:, i]), "share": share})
+            part = pd.DataFrame({"position_mm": np.sort(positions[:, i])[places], "share": share})
             parts.append(part.assign(subset=subset, coordinate=names[i]))
     return pd.concat(parts, ignore_index=True).assign(model="", preset="", interval_method="")
 

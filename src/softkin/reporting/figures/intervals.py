@@ -9,10 +9,11 @@ import numpy as np
 import pandas as pd
 
 from softkin.core.runs import Run
-from softkin.core.samples import TEST
+from softkin.core.samples import TEST, Array
 from softkin.data.table import read_subset
 from softkin.models.spec import PAPERS_RUN
 from softkin.reporting.figures.reading import bounds, candidates, deployed, shown_coordinate
+from softkin.reporting.figures.sampling import drawn_rows
 from softkin.reporting.figures.spec import DatasetResults, FigureSpec
 from softkin.reporting.figures.style import BLUE, GREY, PAGE, SKY, VERMILION, heading, legend_below, panels
 
@@ -42,10 +43,10 @@ def frame(results: DatasetResults, *, is_papers: bool) -> pd.DataFrame:
     parts = []
     for method in (method for method in METHODS if method in results.intervals):
         run = Run(PAPERS_RUN.model if results.has_own_regressors[method] else model, preset)
-        intervals = bounds(results, method, run, level)
+        intervals = bounds(results, method, run, level, [name])
         if intervals is None:
             continue
-        lower, upper = intervals[:, coordinate].T
+        lower, upper = intervals[:, 0].T
         part = pd.DataFrame({"true": true, "lower": lower, "upper": upper}).iloc[order]
         part["covered"] = (part["lower"] <= part["true"]) & (part["true"] <= part["upper"])
         key = {
@@ -64,7 +65,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     figure, axes = panels(2, len(groups), PAGE, 4.8, sharex=True, sharey="row")
     for column, (_, rows) in enumerate(groups):
         first = rows.iloc[0]
-        _draw(axes[0][column], rows, 0.0)
+        _draw(axes[0][column], rows, np.zeros(len(rows)))
         _draw(axes[1][column], rows, rows["true"].to_numpy())
         width = (rows["upper"] - rows["lower"]).mean()
         axes[0][column].set_title(
@@ -78,12 +79,13 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     axes[0][0].set_ylabel(f"{coordinate} (mm)")
     axes[1][0].set_ylabel("distance from the true\nposition (mm)")
     legend_below(figure, axes[0][0].get_legend_handles_labels()[0], 3)
-    heading(figure, results, f"{level:.0%} intervals of {coordinate}")
+    heading(figure, results, f"{level:.0%} intervals of {coordinate}", rows_of=[TEST])
     return figure
 
 
-def _draw(axes: Axes, rows: pd.DataFrame, origin: object) -> None:
-    place = np.arange(len(rows))
+def _draw(axes: Axes, rows: pd.DataFrame, origin: Array) -> None:
+    place = drawn_rows(len(rows))
+    rows, origin = rows.iloc[place], origin[place]
     lower, upper, true = (rows[name].to_numpy() - origin for name in ("lower", "upper", "true"))
     missed = ~rows["covered"].to_numpy()
     axes.fill_between(place, lower, upper, step="mid", color=SKY, alpha=0.6, linewidth=0, label="interval")

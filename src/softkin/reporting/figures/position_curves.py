@@ -11,6 +11,7 @@ from softkin.core.runs import OUTER, PAPER, TUNED
 from softkin.core.samples import EXTRAPOLATION, TEST
 from softkin.data.table import read_subset
 from softkin.reporting.figures.reading import predicted, shown_coordinate
+from softkin.reporting.figures.sampling import drawn_rows
 from softkin.reporting.figures.spec import DatasetResults, FigureSpec
 from softkin.reporting.figures.style import BLACK, LIGHT, LOOKS, PAGE, heading, legend_below, panels, sample
 
@@ -27,16 +28,18 @@ OFF_SCALE: dict[str, Any] = {"fontsize": 6.5, "bbox": {"color": "white", "alpha"
 
 
 def frame(results: DatasetResults) -> pd.DataFrame:
-    """Columns model, preset, interval_method, subset, coordinate, place, true_mm, predicted_mm: a row per run and row
-    of `test` and `extrapolation`, sorted by true position, of the coordinate that moves furthest on `train`.
+    """Columns model, preset, interval_method, subset, coordinate, place, true_mm, predicted_mm: a row per run and drawn
+    row of `test` and `extrapolation`, sorted by true position, of the coordinate that moves furthest on `train`.
     """
     coordinate, name = shown_coordinate(results)
     parts = []
     for subset in (TEST, EXTRAPOLATION):
         true = read_subset(results.table, subset).positions[:, coordinate]
+        rows = drawn_rows(len(true))
+        true = true[rows]
         order = np.argsort(true, kind="stable")
         for run in results.predictions:
-            guess = predicted(results, run, subset, [name])[:, 0]
+            guess = predicted(results, run, subset, [name])[rows, 0]
             part = pd.DataFrame({"place": range(len(true)), "true_mm": true[order], "predicted_mm": guess[order]})
             key = {"model": run.model, "preset": run.preset, "interval_method": "", "subset": subset}
             parts.append(part.assign(**key, coordinate=name))
@@ -72,7 +75,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
         meaning = "predicted, paper preset" if is_paper else "predicted, searched preset (in the model's colour)"
         samples.append(sample(meaning, color=colour, linestyle="", marker="."))
     legend_below(figure, samples, len(samples))
-    heading(figure, results, f"true and predicted {frame['coordinate'].iloc[0]}")
+    heading(figure, results, f"true and predicted {frame['coordinate'].iloc[0]}", rows_of=(TEST, EXTRAPOLATION))
     return figure
 
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
 
-from softkin.core.bounds import read_bounds
 from softkin.core.metrics.point import euclidean_errors
 from softkin.core.runs import Run
 from softkin.core.samples import TEST, TRAIN, Array, coordinate_columns, informative_coordinates
@@ -61,11 +61,24 @@ def predicted(results: DatasetResults, run: Run, subset: str, columns: list[str]
     return np.ascontiguousarray(frame.to_numpy(np.float64))
 
 
-def bounds(results: DatasetResults, method: str, run: Run, confidence_level: float, subset: str = TEST) -> Array | None:
-    """Intervals on a subset, (n_rows, n_coordinates, 2) in mm; None when the method has none around this run."""
-    of_run = [("model", "==", run.model), ("preset", "==", run.preset), ("subset", "==", subset)]
-    stored = pd.read_parquet(results.intervals[method], filters=of_run)
-    return None if stored.empty else np.asarray(read_bounds(stored, subset, [confidence_level])[0])
+def bounds(
+    results: DatasetResults,
+    method: str,
+    run: Run,
+    confidence_level: float,
+    coordinates: Sequence[str],
+    subset: str = TEST,
+) -> Array | None:
+    """Intervals of these coordinates on a subset, (n_rows, n_coordinates, 2) in mm; None when there are none.
+
+    Nothing else is read of the file, which holds all runs and levels and is the largest of the results.
+    """
+    key = {"model": run.model, "preset": run.preset, "subset": subset, "confidence_level": confidence_level}
+    columns = [f"{side}_{name}" for name in coordinates for side in ("lower", "upper")]
+    stored = pd.read_parquet(
+        results.intervals[method], columns=columns, filters=[(name, "==", value) for name, value in key.items()]
+    )
+    return None if stored.empty else stored.to_numpy(np.float64).reshape(len(stored), len(coordinates), 2)
 
 
 def mean_marker_errors(results: DatasetResults, run: Run, subset: str) -> Array:

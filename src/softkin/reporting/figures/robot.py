@@ -34,8 +34,9 @@ def frame(results: DatasetResults) -> pd.DataFrame:
         return pd.DataFrame()
     true = read_subset(results.table, TEST).positions
     n_markers = true.shape[1] // 3
-    guess = predicted(results, best.run, TEST, coordinate_columns(n_markers))
-    box = bounds(results, best.interval_method, best.run, best.confidence_level)
+    names = coordinate_columns(n_markers)
+    guess = predicted(results, best.run, TEST, names)
+    box = bounds(results, best.interval_method, best.run, best.confidence_level, names)
     assert box is not None  # a candidate has intervals
     errors = np.linalg.norm((guess - true).reshape(len(true), n_markers, 3), axis=-1)
     shown = shown_coordinate(results)[0] // 3
@@ -52,8 +53,8 @@ def frame(results: DatasetResults) -> pd.DataFrame:
     key |= {"marker": np.tile(np.arange(n_markers) + 1, len(true)), "error_mm": errors.ravel()}
     table = pd.DataFrame(key | columns)
     table["is_shown"] = table["marker"] == shown + 1
-    names = {"model": best.model, "preset": best.preset, "interval_method": best.interval_method}
-    return table.assign(**names, confidence_level=best.confidence_level)
+    of_run = {"model": best.model, "preset": best.preset, "interval_method": best.interval_method}
+    return table.assign(**of_run, confidence_level=best.confidence_level)
 
 
 def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
@@ -63,7 +64,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     tips = frame[frame["is_shown"]]
     first = tips.iloc[0]
     many = "" if frame["marker"].nunique() == 1 else f", marker m{first['marker']}"
-    heading(figure, results, f"typical poses of test, true and predicted{many}", [TEST])
+    heading(figure, results, f"typical poses of test, true and predicted{many}", [TEST], rows_of=[TEST])
     top = 0.9 - 0.17 * figure.get_suptitle().count("\n") / HEIGHT
     space: Any = figure.add_subplot(projection="3d", position=(-0.02, 0.42, 0.48, top - 0.39))
     draw_poses(space, frame)

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 
 from softkin.core.samples import Array
+from softkin.reporting.figures.sampling import drawn_rows
 from softkin.reporting.figures.style import BLACK, GREY, LEAST_MM, LIGHT, LOOKS, SKY, VERMILION
 from softkin.reporting.tables.numbers import number_text
 
@@ -51,7 +52,8 @@ def draw_poses(axes: Any, frame: pd.DataFrame) -> None:
     """
     colour, mark = LOOKS[frame["model"].iloc[0]]
     tips = frame[frame["is_shown"]]
-    axes.plot(*(tips[f"true_{axis}"] for axis in AXES), "o", color=LIGHT, markersize=2.2, markeredgewidth=0)
+    drawn = tips.iloc[drawn_rows(len(tips))]
+    axes.plot(*(drawn[f"true_{axis}"] for axis in AXES), "o", color=LIGHT, markersize=2.2, markeredgewidth=0)
     extent = np.array([np.ptp(frame[f"true_{axis}"]) for axis in AXES])
     floor = frame["true_z"].min() - 0.1 * extent[2]
     for pose, rows in frame[frame["pose"] > 0].groupby("pose"):

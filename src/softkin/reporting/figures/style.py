@@ -11,6 +11,7 @@ import numpy as np
 from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, VALIDATION
 from softkin.models import MODELS
 from softkin.models.quantile import QUANTILE_MODELS
+from softkin.reporting.figures.sampling import sample_notes
 from softkin.reporting.figures.spec import DatasetResults
 
 if TYPE_CHECKING:
@@ -82,10 +83,21 @@ def panels(n_rows: int, n_columns: int, width: float, height: float, **options: 
     return figure, [list(row) for row in axes]
 
 
-def heading(figure: Figure, results: DatasetResults, text: str, shows: Collection[str] = (TEST, EXTRAPOLATION)) -> None:
-    """Write a title above all panels, and below it the notes of the subsets that it `shows`, such as a leak."""
+def heading(
+    figure: Figure,
+    results: DatasetResults,
+    text: str,
+    shows: Collection[str] = (TEST, EXTRAPOLATION),
+    *,
+    rows_of: Collection[str] = (),
+) -> None:
+    """Write a title above all panels, and below it the notes of the subsets that it `shows`, such as a leak.
+
+    `rows_of`: the subsets whose single rows are drawn; it is said when that is a sample of them.
+    """
     width = int(12 * figure.get_figwidth())
     notes = [f"{subset}: {note}" for subset, note in results.notes.items() if subset in shows]
+    notes += sample_notes(results, rows_of)
     lines = [fill(line, width) for line in (f"{results.title}: {text}", *notes)]
     figure.suptitle("\n".join(lines), fontsize=9 if notes else 10)
 

@@ -11,6 +11,7 @@ from softkin.core.runs import Run
 from softkin.core.samples import TEST
 from softkin.data.table import read_subset
 from softkin.reporting.figures.reading import bounds, candidates, shown_coordinate
+from softkin.reporting.figures.sampling import drawn_rows
 from softkin.reporting.figures.spec import DatasetResults, FigureSpec
 from softkin.reporting.figures.style import (
     BLACK,
@@ -37,17 +38,19 @@ N_PARTS = 5
 def frame(results: DatasetResults) -> pd.DataFrame:
     """Columns model, preset, interval_method, title, coordinate, confidence_level, half_width_mm, error_mm, covered.
 
-    A row per row of `test`, of the coordinate that moves furthest on `train`, for the chosen interval and the three
-    next best candidates whose width is not the same on every row; rows without a finite interval are left out.
+    A row per drawn row of `test`, of the coordinate that moves furthest on `train`, for the chosen interval and the
+    three next best candidates whose width is not the same on every row; rows without a finite interval are left out.
     `error_mm` is the distance of the true position from the interval's middle.
     """
     coordinate, name = shown_coordinate(results)
     true = read_subset(results.table, TEST).positions[:, coordinate]
+    rows = drawn_rows(len(true))
+    true = true[rows]
     parts: list[pd.DataFrame] = []
     for row in candidates(results).itertuples():
-        intervals = bounds(results, row.interval_method, Run(row.model, row.preset), row.confidence_level)
+        intervals = bounds(results, row.interval_method, Run(row.model, row.preset), row.confidence_level, [name])
         assert intervals is not None  # a candidate has intervals
-        lower, upper = intervals[:, coordinate].T
+        lower, upper = intervals[rows, 0].T
         part = pd.DataFrame({"half_width_mm": (upper - lower) / 2, "error_mm": np.abs(true - (lower + upper) / 2)})
         part["covered"] = (lower <= true) & (true <= upper)
         part = part[np.isfinite(part["half_width_mm"])]
@@ -85,7 +88,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
         sample(f"{level:.0%} quantile of rows of like width", color=BLACK, marker="o", markersize=4, linewidth=1.2),
     ]
     legend_below(figure, samples, 4)
-    heading(figure, results, f"{level:.0%} intervals of {frame['coordinate'].iloc[0]}, width and error")
+    heading(figure, results, f"{level:.0%} intervals of {frame['coordinate'].iloc[0]}, width and error", rows_of=[TEST])
     return figure
 
 

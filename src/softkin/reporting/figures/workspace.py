@@ -11,6 +11,7 @@ import pandas as pd
 from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, command_columns
 from softkin.data.table import read_subset
 from softkin.reporting.figures.reading import deployed, mean_marker_errors
+from softkin.reporting.figures.sampling import drawn_rows
 from softkin.reporting.figures.spec import DatasetResults, FigureSpec
 from softkin.reporting.figures.style import BLACK, LEAST_MM, PAGE, heading, legend_below, logarithmic, panels, sample
 
@@ -25,8 +26,8 @@ ERROR = "error_mm"
 
 
 def frame(results: DatasetResults) -> pd.DataFrame:
-    """Columns model, preset, interval_method, subset, u1 .., error_mm: a row per row of `train` (without error),
-    `test` and `extrapolation`; the error of the deployed model is averaged over the moving markers.
+    """Columns model, preset, interval_method, subset, u1 .., error_mm: a row per drawn row of `train` (without
+    error), `test` and `extrapolation`; the error of the deployed model is averaged over the moving markers.
     """
     best = deployed(results)
     if best is None:
@@ -34,8 +35,10 @@ def frame(results: DatasetResults) -> pd.DataFrame:
     parts = []
     for subset in (TRAIN, TEST, EXTRAPOLATION):
         commands = read_subset(results.table, subset).commands
-        part = pd.DataFrame(commands, columns=command_columns(commands.shape[1]))
-        errors = np.nan if subset == TRAIN else mean_marker_errors(results, best.run, subset)
+        ends = [commands.argmin(axis=0), commands.argmax(axis=0)]  # the range of train, which is drawn
+        rows = drawn_rows(len(commands), kept=np.ravel(ends))
+        part = pd.DataFrame(commands[rows], columns=command_columns(commands.shape[1]))
+        errors = np.nan if subset == TRAIN else mean_marker_errors(results, best.run, subset)[rows]
         parts.append(part.assign(subset=subset, **{ERROR: errors}))
     names = {"model": best.model, "preset": best.preset, "interval_method": ""}
     return pd.concat(parts, ignore_index=True).assign(**names)
@@ -72,7 +75,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
         sample("extrapolation", marker="^", **dark),
     ]
     legend_below(figure, samples, 3)
-    heading(figure, results, "mean marker error at each command")
+    heading(figure, results, "mean marker error at each command", rows_of=(TEST, EXTRAPOLATION))
     return figure
 
 

@@ -14,6 +14,7 @@ from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, Array, coordinate_c
 from softkin.data.table import read_subset
 from softkin.models.spec import PAPERS_RUN
 from softkin.reporting.figures.reading import bounds, deployed, predicted, shown_coordinate
+from softkin.reporting.figures.sampling import drawn_rows
 from softkin.reporting.figures.spec import DatasetResults, FigureSpec
 from softkin.reporting.figures.style import BLACK, LIGHT, PAGE, SUBSET_COLOURS, heading, legend_below, panels, sample
 
@@ -32,8 +33,8 @@ SHOWN, SIDES = (TEST, EXTRAPOLATION), ("lower", "upper")
 
 def frame(results: DatasetResults) -> pd.DataFrame:
     """Columns model, preset, interval_method, subset, is_boxed, true_1, true_2, predicted_1, predicted_2, lower_1 ..,
-    upper_2 (mm; intervals NaN where there are none), axis_1, axis_2: a row per row of train (without predictions),
-    test and extrapolation and run, of the marker that moves furthest, in the two coordinates of most spread.
+    upper_2 (mm; intervals NaN where there are none), axis_1, axis_2: a row per run and drawn row of train (without
+    predictions), test and extrapolation, of the marker that moves furthest, in the two coordinates of most spread.
     """
     best = deployed(results)
     runs = [run for run in dict.fromkeys([PAPERS_RUN, *([best.run] if best else [])]) if run in results.predictions]
@@ -46,24 +47,34 @@ def frame(results: DatasetResults) -> pd.DataFrame:
         for subset in (TRAIN, TEST, EXTRAPOLATION):
             true = read_subset(results.table, subset).positions[:, two]
             columns: dict[str, Any] = {"true_1": true[:, 0], "true_2": true[:, 1], "is_boxed": False}
-            if subset != TRAIN:
+            if subset == TRAIN:
+                kept = edge_of(true)
+            else:
                 guess = predicted(results, run, subset, names)
                 columns |= {"predicted_1": guess[:, 0], "predicted_2": guess[:, 1]}
-                columns |= _intervals(results, run, subset, two)
+                columns |= _intervals(results, run, subset, names)
                 columns["is_boxed"] = _evenly_spread(true)
+                kept = np.flatnonzero(columns["is_boxed"])
             key = {"model": run.model, "preset": run.preset, "subset": subset, "axis_1": names[0], "axis_2": names[1]}
-            parts.append(pd.DataFrame(columns).assign(**key))
+            parts.append(pd.DataFrame(columns).iloc[drawn_rows(len(true), kept)].assign(**key))
     if not parts:
         return pd.DataFrame()
     table = pd.concat(parts, ignore_index=True)
     return table.assign(interval_method=METHOD if METHOD in results.intervals else "")
 
 
-def _intervals(results: DatasetResults, run: Run, subset: str, two: NDArray[np.intp]) -> dict[str, Array]:
-    stored = bounds(results, METHOD, run, PAPERS_LEVEL, subset) if METHOD in results.intervals else None
+def _intervals(results: DatasetResults, run: Run, subset: str, names: list[str]) -> dict[str, Array]:
+    stored = bounds(results, METHOD, run, PAPERS_LEVEL, names, subset) if METHOD in results.intervals else None
     if stored is None:
         return {}
-    return {f"{side}_{n + 1}": stored[:, place, s] for n, place in enumerate(two) for s, side in enumerate(SIDES)}
+    return {f"{side}_{n + 1}": stored[:, n, s] for n in range(2) for s, side in enumerate(SIDES)}
+
+
+def edge_of(points: Array) -> NDArray[np.intp]:
+    """Numbers of the corners of the convex hull of points (n_rows, 2), in order around it."""
+    from scipy.spatial import ConvexHull
+
+    return np.asarray(ConvexHull(points, qhull_options="QJ").vertices, dtype=np.intp)
 
 
 def _widest_plane(points: Array) -> NDArray[np.intp]:
@@ -105,17 +116,21 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
         label = f"{PAPERS_LEVEL:.0%} intervals of some rows"
         samples.append(sample(label, color=BLACK, marker="s", fillstyle="none", linestyle=""))
     legend_below(figure, samples, 3)
-    heading(figure, results, f"true and predicted positions of marker {frame['axis_1'].iloc[0].split('_')[0]}")
+    heading(
+        figure,
+        results,
+        f"true and predicted positions of marker {frame['axis_1'].iloc[0].split('_')[0]}",
+        rows_of=SHOWN,
+    )
     return figure
 
 
 def _draw(panel: Axes, rows: pd.DataFrame) -> None:
     from matplotlib.collections import LineCollection
     from matplotlib.patches import Rectangle
-    from scipy.spatial import ConvexHull
 
     train = rows.loc[rows["subset"] == TRAIN, ["true_1", "true_2"]].to_numpy()
-    edge = train[ConvexHull(train, qhull_options="QJ").vertices]
+    edge = train[edge_of(train)]
     panel.plot(*np.vstack([edge, edge[:1]]).T, color=BLACK, linewidth=0.8, linestyle="--", zorder=4)
     for subset in SHOWN:
         of_subset, colour = rows[rows["subset"] == subset], SUBSET_COLOURS[subset]

@@ -64,8 +64,10 @@ def test_the_coordinate_that_moves_furthest_is_shown(
 
 @pytest.mark.parametrize(("preset", "is_there"), [("tuned", True), ("paper", False)])
 def test_bounds_of_a_run_without_intervals_are_none(results: DatasetResults, preset: str, is_there: bool) -> None:
-    stored = bounds(results, "scp_mapie", Run("gp", preset), 0.9)
+    stored = bounds(results, "scp_mapie", Run("gp", preset), 0.9, ["m1_z", "m1_x"])
     assert (stored is not None) == is_there
     if stored is not None:
-        assert stored.shape == (40, 3, 2)
-        assert (stored[..., 0] < stored[..., 1]).all()
+        frame = pd.read_parquet(results.intervals["scp_mapie"])
+        rows = frame[(frame["model"] == "gp") & (frame["subset"] == "test")]
+        expected = [[rows[f"{side}_{name}"] for side in ("lower", "upper")] for name in ("m1_z", "m1_x")]
+        np.testing.assert_array_equal(stored, np.transpose(expected, (2, 0, 1)))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
+from softkin.core.samples import coordinate_columns
 from softkin.reporting.figures.reading import bounds
 from softkin.reporting.figures.robot import frame, plot
 from softkin.reporting.figures.robot_panels import missed
@@ -17,7 +18,7 @@ def test_each_row_of_test_has_its_error_and_its_intervals(results: DatasetResult
     rows = frame(results)
     assert len(rows) == 40
     assert rows["is_shown"].all()
-    box = bounds(results, "scp_spread", RUNS[3], 0.9)
+    box = bounds(results, "scp_spread", RUNS[3], 0.9, coordinate_columns(1))
     assert box is not None
     np.testing.assert_array_equal(rows[["lower_x", "lower_y", "lower_z"]], box[..., 0])
     np.testing.assert_allclose(rows["predicted_y"] - rows["true_y"], 1.0)
