@@ -7,6 +7,7 @@ from sklearn.exceptions import ConvergenceWarning
 from sklearn.neural_network import MLPRegressor
 
 from softkin.core.samples import Samples
+from softkin.models.estimators.fused_network import FusedNetwork
 from softkin.models.estimators.last_layer_laplace import last_layer_laplace
 from softkin.models.mlp import SPEC, build
 from tests.conftest import bending_arm
@@ -33,7 +34,17 @@ def test_the_papers_network_has_a_seed_of_its_own_and_stops_early(train: Samples
     with pytest.warns(ConvergenceWarning):
         one.fit(train.commands, train.positions)
     assert one.n_iter_ == 12
+    assert type(one) is MLPRegressor
     assert build(SMALL, 5, 1).random_state == 5
+
+
+def test_lbfgs_fits_the_fused_network(train: Samples) -> None:
+    network = build(SMALL, 0, 1)
+    assert isinstance(network, FusedNetwork)
+    settings = {"solver": "lbfgs", "activation": "tanh", "alpha": 1e-2, "max_iter": 20, "random_state": 0}
+    expected = MLPRegressor(**settings, hidden_layer_sizes=(5, 5)).fit(train.commands, train.positions)
+    predicted = network.fit(train.commands, train.positions).predict(train.commands)
+    np.testing.assert_allclose(predicted, expected.predict(train.commands), atol=1e-6)
 
 
 def test_several_networks_see_all_rows_and_predict_their_mean(train: Samples) -> None:
