@@ -6,7 +6,7 @@ export MLFLOW_DISABLE_TELEMETRY := true
 # Things run side by side, one core each: with more threads than that they wait for each other most of the time.
 export OMP_NUM_THREADS := 1
 
-.PHONY: run unlock new-robot test test-workflow test-others test-run lint ui store report gallery snakemake-report campaigns benchmark benchmark-large benchmark-pruning benchmark-shells benchmark-figures coverage numbers results-page standins
+.PHONY: run unlock new-robot test test-workflow test-others test-run lint ui store report gallery snakemake-report campaigns benchmark benchmark-large benchmark-pruning benchmark-shells benchmark-figures coverage numbers results-page standins timings
 .PHONY: environment clean ui-screenshot
 
 run: .venv/installed
@@ -99,6 +99,11 @@ standins: .venv/installed
 # What the tables of a finished run of the default configuration say: to compare before and after a change.
 numbers: .venv/installed
 	@$(BIN)/python -m tools.print_numbers
+
+# resources/timings.csv, which the estimate of the time left starts from: from a run of the default configuration that was
+# made here alone on the machine, from nothing.
+timings: .venv/installed
+	$(BIN)/python -m tools.timings
 
 # docs/results.md, its gallery with it, from a finished run of the default configuration.
 results-page: .venv/installed

@@ -18,12 +18,14 @@ logger = logging.getLogger("softkin")
 
 #: Environment variable, set while `cli.watching` draws its screen: jobs then write to their logs alone.
 ON_A_SCREEN = "SOFTKIN_ON_A_SCREEN"
+#: The time of day with which lines on the terminal begin.
+CLOCK = "%H:%M:%S"
 
 
 @contextmanager
 def job(log: str, label: str) -> Iterator[None]:
-    """Run a job: messages go to the file `log` and, from level INFO, to the terminal, marked with `label`. Under
-    `ON_A_SCREEN` nothing goes to the terminal, and what libraries write to it goes to the file.
+    """Run a job: messages go to the file `log` and, from level INFO, to the terminal, marked with the time of day and
+    `label`. Under `ON_A_SCREEN` nothing goes to the terminal, and what libraries write to it goes to the file.
 
     A `SoftkinError` ends the job with its message alone and exit status 1; any other exception is a defect of softkin
     and keeps its traceback, also in the log file.
@@ -34,7 +36,7 @@ def job(log: str, label: str) -> Iterator[None]:
     to_file.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(message)s"))
     to_terminal = logging.StreamHandler(sys.stderr)
     to_terminal.setLevel(logging.INFO)
-    to_terminal.setFormatter(logging.Formatter(f"{label}: %(message)s"))
+    to_terminal.setFormatter(logging.Formatter(f"%(asctime)s {label}: %(message)s", CLOCK))
     screen = ON_A_SCREEN in os.environ
     logger.handlers = [to_file] if screen else [to_file, to_terminal]
     logger.setLevel(logging.DEBUG)

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import logging
 import os
+import re
 import time
 from pathlib import Path
 
@@ -9,6 +10,8 @@ import pytest
 
 from softkin.core.errors import SoftkinError
 from softkin.core.job import ON_A_SCREEN, job, stopwatch
+
+CLOCK = r"[0-2]\d:[0-5]\d:[0-5]\d"
 
 
 def test_bad_input_ends_with_its_message_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -18,7 +21,7 @@ def test_bad_input_ends_with_its_message_alone(tmp_path: Path, capsys: pytest.Ca
     assert end.value.code == 1
     assert "row 7: no value" in log.read_text()
     printed = capsys.readouterr().err
-    assert printed == "prepare finger: row 7: no value\n  fix: fill the cell\n"
+    assert re.fullmatch(rf"{CLOCK} prepare finger: row 7: no value\n  fix: fill the cell\n", printed)
 
 
 def test_a_defect_keeps_its_traceback(tmp_path: Path) -> None:
@@ -31,7 +34,7 @@ def test_debug_goes_to_the_log_only(tmp_path: Path, capsys: pytest.CaptureFixtur
     with job(str(tmp_path / "job.log"), "tune"):
         logging.getLogger("softkin").debug("trial 3")
         logging.getLogger("softkin").info("half done")
-    assert capsys.readouterr().err == "tune: half done\n"
+    assert re.fullmatch(rf"{CLOCK} tune: half done\n", capsys.readouterr().err)
     assert "trial 3" in (tmp_path / "job.log").read_text()
 
 

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from softkin.cli.watching.progress import Job, Progress, Remaining, trials
+from softkin.cli.watching.estimate import Remaining
+from softkin.cli.watching.job import Job
+from softkin.cli.watching.progress import Progress
+from softkin.cli.watching.study_log import trials
 from softkin.core.durations import readable, roughly
 
 BAR = 30
 
 
 def time_left(remaining: Remaining) -> str:
-    """The estimate in words: 'about 14 min left', 'roughly 3 min left', 'no estimate yet'."""
-    seconds = remaining.seconds
-    if seconds is None or (remaining.is_rough and seconds < 30):
-        return "no estimate yet"
-    return f"{'roughly' if remaining.is_rough else 'about'} {roughly(seconds)} left".replace("about under", "under")
+    """The estimate in words: 'about 14 min left', 'roughly 3 min left', 'under a minute left'."""
+    word = "roughly" if remaining.is_rough else "about"
+    return f"{word} {roughly(remaining.seconds)} left".replace(f"{word} under", "under")
 
 
 def heading(progress: Progress, now: float) -> str:
@@ -42,10 +43,12 @@ def screen_lines(progress: Progress, now: float, *, title: str, width: int, heig
     return [line.rstrip() if len(line) <= width else line[: width - 1] + "…" for line in lines[:height]]
 
 
-def ended_line(job: Job, progress: Progress, now: float) -> str:
-    """A job that has ended: '[63 of 197 jobs · 4 min 12 s used · about 14 min left] tune finger gp: 12.3 s'."""
+def ended_line(job: Job, progress: Progress, now: float, clock: str) -> str:
+    """A job that has ended: '[14:03:12 · 63 of 197 jobs · 4 min 12 s used · about 14 min left] tune finger gp: 12.3 s';
+    `clock` is the time of day.
+    """
     how = "FAILED" if job.taken is None else readable(job.taken)
-    return f"[{heading(progress, now)}] {job.name}: {how}"
+    return f"[{clock} · {heading(progress, now)}] {job.name}: {how}"
 
 
 def _stages(progress: Progress) -> str:

@@ -11,10 +11,11 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import TextIO
 
+from softkin.cli.watching.job import Job
 from softkin.cli.watching.lines import ended_line, screen_lines
-from softkin.cli.watching.progress import Job, Progress
+from softkin.cli.watching.progress import Progress
 from softkin.core.durations import readable
-from softkin.core.job import ON_A_SCREEN
+from softkin.core.job import CLOCK, ON_A_SCREEN
 
 #: The name that Snakemake gives the handler that writes to the terminal.
 SNAKEMAKES_OWN = "DefaultStreamHandler"
@@ -27,7 +28,7 @@ class View(logging.Handler):
     """Shows a run from Snakemake's events, and passes warnings and errors on to `own`, Snakemake's handler.
 
     On a terminal one block of lines is drawn over itself once a second, and jobs write to their logs only; anywhere
-    else each job that ends is one line, and jobs write to the terminal too.
+    else each job that ends is one line with the time of day, and jobs write to the terminal too.
     """
 
     def __init__(
@@ -63,7 +64,9 @@ class View(logging.Handler):
         took = readable(self.clock() - self.progress.start)
         failed = f", {self.progress.failed} failed" if self.progress.failed else ""
         with suppress(OSError):
-            self._write(f"{self.title}: {self.progress.done} of {len(self.progress.jobs)} jobs in {took}{failed}\n")
+            at = "" if self.is_screen else f"{self._time_of_day()} "
+            jobs = f"{self.progress.done} of {len(self.progress.jobs)} jobs"
+            self._write(f"{at}{self.title}: {jobs} in {took}{failed}\n")
 
     def close(self) -> None:
         """Stop drawing, and leave the terminal clean; also called when Snakemake ends in an error of its own."""
@@ -105,10 +108,15 @@ class View(logging.Handler):
         if job is None:
             return
         if not self.is_screen:
-            self._write(ended_line(job, self.progress, now) + "\n")
+            self._write(ended_line(job, self.progress, now, self._time_of_day()) + "\n")
         elif job.log is not None and job.log.is_file() and not job.failed:  # of a failed one Snakemake shows the log
             for warning in WARNING.findall(job.log.read_text(encoding="utf-8", errors="replace")):
                 self._write(f"{job.name}: {warning}\n")
+
+    @staticmethod
+    def _time_of_day() -> str:
+        """What a line of a log begins with."""
+        return time.strftime(CLOCK)
 
     def _tick(self) -> None:
         while not self._ended.wait(1.0):

@@ -6,6 +6,7 @@ import io
 import logging
 import os
 import pty
+import re
 import select
 from collections.abc import Iterator
 from pathlib import Path
@@ -13,9 +14,12 @@ from typing import TextIO
 
 import pytest
 
-from softkin.cli.watching.progress import Job, Progress
+from softkin.cli.watching.job import Job
+from softkin.cli.watching.progress import Progress
 from softkin.cli.watching.view import View
 from softkin.core.job import ON_A_SCREEN
+
+CLOCK = r"[0-2]\d:[0-5]\d:[0-5]\d"
 
 
 @pytest.fixture
@@ -28,7 +32,7 @@ def logger() -> Iterator[logging.Logger]:
 
 
 def jobs(log: Path | None = None) -> Progress:
-    return Progress({1: Job("prepare", {"dataset": "finger"}, log), 2: Job("tune", {"dataset": "finger"})}, 2, 0.0)
+    return Progress({1: Job("prepare", {"dataset": "finger"}, log=log), 2: Job("tune", {"dataset": "finger"})}, 2, 0.0)
 
 
 def run_of(logger: logging.Logger) -> None:
@@ -60,10 +64,10 @@ def test_a_log_file_gets_plain_lines(logger: logging.Logger) -> None:
     view.finish(logger)
     logger.info("Complete log: x")
     lines = stream.getvalue().splitlines()
-    assert lines[0].endswith("] prepare finger: 2.0 s")
-    assert lines[1].endswith("] tune finger: FAILED")
+    assert re.fullmatch(rf"\[{CLOCK} · 1 of 2 jobs · .* left\] prepare finger: 2.0 s", lines[0])
+    assert re.fullmatch(rf"\[{CLOCK} · 1 of 2 jobs · 1 FAILED · .* left\] tune finger: FAILED", lines[1])
     assert lines[2] == "Error in rule tune"
-    assert lines[3].startswith("softkin test: 1 of 2 jobs in ")
+    assert re.match(rf"{CLOCK} softkin test: 1 of 2 jobs in ", lines[3])
     assert lines[3].endswith("1 failed")
     assert lines[4:] == ["Complete log: x"]
     assert "\033" not in stream.getvalue()
