@@ -48,6 +48,8 @@ REGISTRIES: dict[str, Any] = {
     "regions": REGION_METHODS,
     "standins": STANDINS,
 }
+#: What is given with `--configfile`, on top of the default configuration.
+MORE = sorted(path for path in (HOUSE / "config").glob("*.yaml") if path.name not in ("config.yaml", "datasets.yaml"))
 MISSPELT: dict[str, dict[str, Any]] = {
     "models": {"models": ["lrr"]},
     "max_fit_rows": {"max_fit_rows": {"gpp": 200}},
@@ -101,6 +103,15 @@ def test_snakemake_checks_the_names_of_every_registry() -> None:
 
 def test_the_configuration_is_accepted() -> None:
     check_configuration(configuration(), PATH, REGISTRIES)
+
+
+@pytest.mark.parametrize("name", [path.name for path in MORE])
+def test_other_configurations_are_accepted_and_say_what_they_are(name: str) -> None:
+    more = yaml.safe_load((HOUSE / "config" / name).read_text())
+    config = merged(configuration(), more)
+    check_configuration(config, PATH, REGISTRIES)
+    assert config["campaign"] != configuration()["campaign"]
+    assert config["caution"]
 
 
 @pytest.mark.parametrize("key", MISSPELT)

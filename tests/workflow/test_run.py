@@ -94,6 +94,8 @@ def test_the_paper_tables_are_laid_out_and_cut_rows_are_marked(house: House) -> 
 def test_the_run_ends_with_the_headline(house: House) -> None:
     text = (house.work / "first_run.txt").read_text()
     assert "softkin: forward kinematics" in text
+    caution = yaml.safe_load((house.root / "config" / "test.yaml").read_text())["caution"]
+    assert f"CAUTION: {caution}" in text
     assert "make ui" in text
 
 

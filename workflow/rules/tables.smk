@@ -47,6 +47,7 @@ rule build_tables:
     params:
         studies=every_study(),
         objective=config["objective"],
+        caution=config.get("caution"),
         sources={name: config["sources"][name] for name in config["datasets"]},
         code=code_of("build_tables"),
         published=content("resources/published/*.csv"),

@@ -46,5 +46,6 @@ rule track:
         seed=config["seed"],
         tracking_uri=tracking_uri(),
         code=code_of("track"),
+        caution=config.get("caution"),
     script:
         "../scripts/track.py"

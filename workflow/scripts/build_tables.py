@@ -30,4 +30,5 @@ with job(snakemake.log[0], "build tables"):
             {name: method.title for name, method in INTERVAL_METHODS.items()},
         ),
         folder=Path(snakemake.output.headline).parent,
+        caution=params.caution,
     )

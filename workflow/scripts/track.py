@@ -19,6 +19,7 @@ with job(snakemake.log[0], f"track {snakemake.wildcards.dataset}"):
         seed=params.seed,
         tracking_uri=params.tracking_uri,
         artifacts="mlartifacts",
+        caution=params.caution,
     )
     of_dataset = {"description": files.description, "data_card": files.data_card}
     logged = log_dataset(campaign, **of_dataset, point=files.point, figures=files.figures, runs=runs)

@@ -87,7 +87,10 @@ def log_champion(
     table = _rows(pd.read_csv(intervals), **key, interval_method=method, coordinate="mean_informative")
     level = nearest_level(sorted(table["confidence_level"].unique()))
     shown = table[table["confidence_level"] == level]
-    card = model_card(model, registered=name, description=described, scores=scores, intervals=shown, level=level)
+    card = model_card(
+        model, registered=name, description=described, scores=scores, intervals=shown, level=level,
+        caution=campaign.caution,
+    )  # fmt: skip
     record = Record(
         key=f"{campaign.name}/{described['dataset']}/{ALIAS}",
         name=f"{described['dataset']} · {ALIAS}",

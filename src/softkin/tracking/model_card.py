@@ -41,6 +41,7 @@ def model_card(
     scores: pd.DataFrame,
     intervals: pd.DataFrame,
     level: float,
+    caution: str | None = None,
 ) -> str:
     """The card in Markdown.
 
@@ -52,10 +53,12 @@ def model_card(
         intervals: the rows of its method in interval_metrics.csv, at `level`, averaged over moving coordinates, by
             subset.
         level: nominal level in (0, 1).
+        caution: what the configuration says of its own numbers.
     """
     origin, percent = description["origin"], share_text(level, 0)
     lines = [f"# {description['title']}", ""]
     lines += [f"**{ORIGINS[origin]}**", ""] if origin in ORIGINS else []
+    lines += [f"**CAUTION**: {caution}", ""] if caution else []
     commands = counted(description["n_commands"], "command")
     markers = counted(description["n_markers"], "marker")
     lines += [

@@ -24,6 +24,8 @@ from softkin.tracking.store import (
     PARENT,
     Campaign,
     Record,
+    caution_content,
+    caution_note,
     client_of,
     common_tags,
     delete,
@@ -75,7 +77,7 @@ def log_dataset(
     scores = pd.read_csv(point)
     experiment = experiment_of(client, described["dataset"], campaign.artifacts)
     note = f"**{described['title']}**, {described['origin']}. *Views*, at the top right, has *{NAME}*."
-    note += _findings_note(described)
+    note += _findings_note(described) + caution_note(campaign)
     for tag, value in {NOTE: note, "origin": described["origin"], TAG: saved_view()}.items():
         client.set_experiment_tag(experiment, tag, value)
     shown = shown_in(figures)
@@ -103,7 +105,7 @@ def _record(
     metrics = _metrics(model_run.scores)
     errors = model_run.scores.set_index("subset")["euclidean_mean_mm"]
     note = f"**{description['title']}**, {model}, {preset} preset. Mean marker error: {errors[TEST]:.4g} mm on test, "
-    note += f"{errors[EXTRAPOLATION]:.4g} mm on extrapolation." + _findings_note(description)
+    note += f"{errors[EXTRAPOLATION]:.4g} mm on extrapolation." + _findings_note(description) + caution_note(campaign)
     return Record(
         key=f"{campaign.name}/{description['dataset']}/{model}/{preset}",
         name=f"{description['dataset']} · {model} · {preset}",
@@ -115,6 +117,7 @@ def _record(
             "n_trials": study.get("n_trials"),
             "figures": content_of(model_run.figures),
             "findings": [finding["sentence"] for finding in description["findings"]],
+            **caution_content(campaign),
         },
         tags={
             PARENT: parent,
@@ -173,7 +176,7 @@ def _campaign_record(campaign: Campaign, description: Mapping[str, Any], figures
     tags = {
         "kind": "campaign",
         **common_tags(campaign, description),
-        NOTE: note + _findings_note(description),
+        NOTE: note + _findings_note(description) + caution_note(campaign),
     }
     return Record(
         key=f"{campaign.name}/{description['dataset']}",

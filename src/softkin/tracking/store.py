@@ -40,12 +40,15 @@ PAGE = 1000
 
 @dataclass(frozen=True, slots=True)
 class Campaign:
-    """One complete run of the workflow on one configuration: name, seed, where its store and artifacts are."""
+    """One complete run of the workflow on one configuration: name, seed, where its store and artifacts are, and what it
+    says of its own numbers.
+    """
 
     name: str
     seed: int
     tracking_uri: str
     artifacts: str
+    caution: str | None = None
     #: Milliseconds. The UI sorts runs by their start, newest first.
     started: int = field(default_factory=lambda: int(time.time() * 1000))
 
@@ -86,6 +89,16 @@ def common_tags(campaign: Campaign, description: Mapping[str, Any]) -> dict[str,
         "seed": str(campaign.seed),
         "leak": str(any(finding["severity"] == LEAK for finding in description["findings"])).lower(),
     }
+
+
+def caution_note(campaign: Campaign) -> str:
+    """The end of each description in MLflow: what the configuration says of its own numbers, if anything."""
+    return f"\n\n**caution**: {campaign.caution}" if campaign.caution else ""
+
+
+def caution_content(campaign: Campaign) -> dict[str, str]:
+    """The same as a part of a record's content: runs without a caution keep the content that they had."""
+    return {"caution": campaign.caution} if campaign.caution else {}
 
 
 def create_store(tracking_uri: str) -> None:

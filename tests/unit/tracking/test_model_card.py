@@ -9,7 +9,7 @@ from softkin.uncertainty.calibrated_model import CalibratedModel
 from tests.unit.tracking.robots import DESCRIPTION, LEAK, interval_metrics, point_metrics, robot, with_shells
 
 
-def card(model: CalibratedModel | None = None, **changed: Any) -> str:
+def card(model: CalibratedModel | None = None, caution: str | None = None, **changed: Any) -> str:
     description = DESCRIPTION | {"findings": [LEAK]} | changed
     metrics = interval_metrics()
     return model_card(
@@ -19,6 +19,7 @@ def card(model: CalibratedModel | None = None, **changed: Any) -> str:
         scores=point_metrics().set_index("subset"),
         intervals=metrics[metrics["confidence_level"] == 0.9].set_index("subset"),
         level=0.9,
+        caution=caution,
     )
 
 
@@ -43,6 +44,12 @@ def test_it_says_errors_guarantee_data_and_use() -> None:
 def test_simulated_data_come_with_a_warning_before_anything_else() -> None:
     assert card(origin="stand-in").splitlines()[2].startswith("**STAND-IN")
     assert "STAND-IN" not in card()
+
+
+def test_a_caution_of_the_configuration_stands_before_the_numbers() -> None:
+    text = card(caution="Few trials.")
+    assert text.splitlines()[2] == "**CAUTION**: Few trials."
+    assert "CAUTION" not in card()
 
 
 def test_rows_that_were_left_out_are_named() -> None:

@@ -15,7 +15,7 @@ from softkin.core.files import read_json
 from softkin.core.samples import SUBSETS
 from softkin.tracking import Campaign, log_dataset, log_intervals
 from softkin.tracking.saved_view import TAG
-from softkin.tracking.store import CONTENT, KEY, PARENT
+from softkin.tracking.store import CONTENT, KEY, NOTE, PARENT
 from tests.unit.tracking.conftest import client_of_store, snapshot
 
 
@@ -96,6 +96,24 @@ def test_logging_again_changes_nothing(campaign: Campaign, results: dict[str, An
     assert log_dataset(campaign, **results) == first
     assert snapshot(campaign) == before
     assert len(before) == 3
+
+
+def test_a_caution_stands_in_each_description_and_replaces_the_runs_without(
+    campaign: Campaign, results: dict[str, Any], interval_files: dict[str, Path]
+) -> None:
+    careful = replace(campaign, caution="Few trials.")
+    plain = log_dataset(campaign, **results)
+    log_intervals(campaign, **interval_files, parents=plain)
+    without = set(snapshot(campaign))
+    for _ in range(2):
+        logged = log_dataset(careful, **results)
+        log_intervals(careful, **interval_files, parents=logged)
+        runs = snapshot(campaign)
+        assert not without & set(runs)
+        assert len(runs) == len(without)
+        assert all("**caution**: Few trials." in run["data"]["tags"][NOTE] for run in runs.values())
+    tags = client_of_store(campaign).get_experiment_by_name("finger").tags
+    assert "**caution**: Few trials." in tags[NOTE]
 
 
 def test_other_timings_alone_are_no_new_result(campaign: Campaign, results: dict[str, Any]) -> None:

@@ -27,6 +27,7 @@ def what_was_run(config: Mapping[str, Any], citation: Path, sources: Mapping[str
     """
     return {
         "campaign": config["campaign"],
+        "caution": config.get("caution"),
         "seed": config["seed"],
         "written": datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
         "commit": commit(citation.parent),

@@ -32,26 +32,38 @@ PRESET_COLUMNS = {
 COUNTS = ("no column", "one column", "two columns", "three columns", "four columns")
 
 
-def build_tables(tables: Tables, *, titles: Titles, folder: Path) -> None:
-    """Write every table into `folder`: each frame as CSV, those for a paper as Markdown and LaTeX, the headline."""
+def build_tables(tables: Tables, *, titles: Titles, folder: Path, caution: str | None = None) -> None:
+    """Write every table into `folder`: each frame as CSV, those for a paper as Markdown and LaTeX, the headline.
+
+    Parameters:
+        tables: what they show.
+        titles: of models and interval methods.
+        folder: where they go.
+        caution: what the configuration says of its own numbers; headline and Markdown repeat it.
+    """
     frames = tables.frames
     for name, frame in frames.items():
         with replacing(folder / f"{name}.csv") as temporary:
             frame.to_csv(temporary, index=False)
     robots = {name: entry["title"] for name, entry in tables.sources.items()}
     sentences = summary(frames["published_comparison"], frames.get("published_columns"))
-    preface = _preface(sentences, presets_of(frames["point_metrics"]))
+    preface = _preface([*_cautions(caution), *sentences], presets_of(frames["point_metrics"]))
     papers = _papers_tables(tables, titles)
     write_text(folder / "paper_tables.md", "\n".join([preface, *(table.markdown() for table in papers)]))
     write_text(folder / "paper_tables.tex", "\n".join(table.latex() for table in papers))
-    remarks = [f"{robots[dataset]}, {s}: {note}" for (dataset, s), note in tables.notes.items() if s == TEST]
+    remarks = _cautions(caution)
+    remarks += [f"{robots[dataset]}, {s}: {note}" for (dataset, s), note in tables.notes.items() if s == TEST]
     ours = interval_table(frames["interval_metrics"], frames["interval_choice"], robots, titles, remarks)
     write_text(folder / "interval_tables.md", ours.markdown())
     write_text(folder / "interval_tables.tex", ours.latex())
     selected = deployed(frames["selection"]) if "selection" in frames else None
     leaking = [card["dataset"] for card in tables.cards if card["is_leaking"]]
-    text = headline(selected, frames["point_metrics"], frames["interval_choice"], sentences, leaking)
+    text = headline(selected, frames["point_metrics"], frames["interval_choice"], sentences, leaking, caution)
     write_text(folder / "headline.txt", text)
+
+
+def _cautions(caution: str | None) -> list[str]:
+    return [f"CAUTION: {caution}"] if caution else []
 
 
 def _papers_tables(tables: Tables, titles: Titles) -> list[PaperTable]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
 
 import pandas as pd
@@ -10,6 +11,7 @@ from softkin.core.samples import EXTRAPOLATION, TEST
 from softkin.reporting.tables.interval_choice import chosen_intervals, deployed_intervals
 from softkin.reporting.tables.numbers import number_text, share_text
 
+WIDTH = 90
 AIMS = {
     "interpolation": "commands like those of train",
     "extrapolation": "commands beyond those of train",
@@ -29,8 +31,9 @@ def headline(
     choice: pd.DataFrame,
     sentences: Sequence[str],
     leaking: Sequence[str] = (),
+    caution: str | None = None,
 ) -> str:
-    """Plain text of at most 90 columns.
+    """Plain text of at most `WIDTH` columns.
 
     Parameters:
         selected: the deployed run of each dataset; None where nothing was searched.
@@ -38,9 +41,12 @@ def headline(
         choice: as in interval_choice.csv.
         sentences: how the paper's cells compare with ours.
         leaking: datasets whose test rows stand in train.
+        caution: what the configuration says of its own numbers.
     """
     width = 2 + max(18, *map(len, choice["dataset"]))
     lines = ["", "softkin: forward kinematics, mean error of a marker position (mm)", ""]
+    if caution:
+        lines += [*textwrap.wrap(f"CAUTION: {caution}", WIDTH, initial_indent="  ", subsequent_indent="  "), ""]
     if selected is not None:
         lines += _errors(selected, point, leaking, width)
     lines += _intervals(choice, width)

@@ -149,6 +149,14 @@ def test_without_a_leak_in_the_data_card_a_note_is_a_caution(results: Results, t
     assert "The audit has no finding." in text
 
 
+def test_a_caution_of_the_configuration_stands_at_the_top(results: Results, page: Path) -> None:
+    config = results.arguments["config"] | {"caution": "Few trials & few <models>."}
+    text = results.build("cautious.html", config=config).read_text(encoding="utf-8")
+    notice = '<p class="notice"><b>CAUTION</b> Few trials &amp; few &lt;models&gt;.</p>'
+    assert notice in text[: text.index("<h1>")]
+    assert 'class="notice"' not in page.read_text(encoding="utf-8")
+
+
 def test_untuned_and_uncompared_results_make_a_page_too(results: Results, tmp_path: Path) -> None:
     tables = []
     for path in results.arguments["tables"]:

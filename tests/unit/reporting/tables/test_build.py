@@ -87,6 +87,13 @@ def test_the_headline_names_the_deployed_models_and_the_leak(folder: Path) -> No
     assert "printed cells" in text
 
 
+def test_a_caution_stands_in_all_that_is_read_as_text(tables: Tables, folder: Path, tmp_path: Path) -> None:
+    build_tables(tables, titles=TITLES, folder=tmp_path, caution="Few trials.")
+    for name in ("headline.txt", "paper_tables.md", "interval_tables.md"):
+        assert "CAUTION: Few trials." in (tmp_path / name).read_text()
+        assert "CAUTION" not in (folder / name).read_text()
+
+
 def test_where_nothing_was_searched_the_headline_has_intervals_alone(run: Run, tmp_path: Path) -> None:
     build_tables(run.tables(searched=False), titles=TITLES, folder=tmp_path)
     text = (tmp_path / "headline.txt").read_text()

@@ -40,6 +40,15 @@ def test_the_deployed_model_and_its_errors() -> None:
     assert max(map(len, text.splitlines())) <= 90
 
 
+def test_a_caution_stands_before_all_numbers() -> None:
+    caution = "These are the numbers of a demonstration: one robot, few models, few trials. For better ones: make run."
+    text = headline(SELECTED, scores(0.5, 1.25), CHOICE, [], caution=caution)
+    assert f"CAUTION: {caution}" in " ".join(text.split())
+    assert text.index("CAUTION") < text.index("0.500")
+    assert max(map(len, text.splitlines())) <= 90
+    assert "CAUTION" not in headline(SELECTED, scores(0.5, 1.25), CHOICE, [])
+
+
 def test_a_mean_set_by_a_few_rows_is_remarked_upon() -> None:
     assert "arm: a few gross errors set the mean" in headline(SELECTED, scores(2.0, 1.25), CHOICE, [])
 
