@@ -6,11 +6,16 @@ export MLFLOW_DISABLE_TELEMETRY := true
 # Things run side by side, one core each: with more threads than that they wait for each other most of the time.
 export OMP_NUM_THREADS := 1
 
-.PHONY: run unlock new-robot test test-workflow test-others test-run lint ui store report gallery snakemake-report campaigns benchmark benchmark-large benchmark-pruning benchmark-shells benchmark-figures coverage numbers results-page standins timings
+.PHONY: run demo unlock new-robot test test-workflow test-others test-run lint ui store report gallery snakemake-report campaigns benchmark benchmark-large benchmark-pruning benchmark-shells benchmark-figures coverage numbers results-page standins timings
 .PHONY: environment clean ui-screenshot
 
 run: .venv/installed
 	$(BIN)/snakemake --cores $(CORES)
+
+# A first look at everything, in a folder and a store of its own: one robot, few models, few trials.
+demo: .venv/installed
+	env -u MLFLOW_TRACKING_URI $(BIN)/snakemake --cores $(CORES) --directory results/demo --configfile config/demo.yaml
+	@echo "All of this is in results/demo: open results/demo/results/report.html, or browse it by make ui IN=results/demo"
 
 # After a kill -9 or a power cut, when no other run is going on: `make unlock run`.
 unlock: .venv/installed
@@ -40,10 +45,11 @@ lint: .venv/installed
 	$(BIN)/snakemake --lint
 	$(BIN)/mypy
 
-# The link opens what MLflow hides behind *Model training*.
+# The link opens what MLflow hides behind *Model training*. IN: the folder of the run, such as results/demo.
+IN ?= .
 ui: .venv/installed
 	@echo "http://127.0.0.1:5000/#/experiments?workflowType=machine_learning"
-	MLFLOW_SERVER_ENABLE_JOB_EXECUTION=false $(BIN)/mlflow ui --host 127.0.0.1 --workers 1
+	cd "$(IN)" && MLFLOW_SERVER_ENABLE_JOB_EXECUTION=false "$(CURDIR)/$(BIN)/mlflow" ui --host 127.0.0.1 --workers 1
 
 # Make the MLflow store anew, or bring it up to date, from results/.
 store: .venv/installed

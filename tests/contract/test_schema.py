@@ -114,6 +114,17 @@ def test_other_configurations_are_accepted_and_say_what_they_are(name: str) -> N
     assert config["caution"]
 
 
+def test_the_demonstration_makes_all_that_a_run_makes_in_a_folder_of_its_own() -> None:
+    config = merged(configuration(), yaml.safe_load((HOUSE / "config" / "demo.yaml").read_text()))
+    assert config["presets"] == list(PRESETS)
+    assert config["regime"] == "auto"
+    assert "auto" in config["interval_methods"]
+    assert config["tracking_uri"] == "sqlite:///mlflow.db"
+    recipe = re.search(r"^demo:.*\n((?:\t.*\n)+)", (HOUSE / "Makefile").read_text(), re.MULTILINE)
+    assert recipe
+    assert "--directory results/demo --configfile config/demo.yaml" in recipe[1]
+
+
 @pytest.mark.parametrize("key", MISSPELT)
 def test_a_name_that_no_registry_has_is_refused_at_its_key(key: str) -> None:
     with pytest.raises(ConfigError, match=re.escape(key)):
