@@ -68,7 +68,7 @@ def _quantiles(n: int, rng: np.random.Generator) -> Made:
     points, truth = _points(n, rng)
     half = np.array([1.0, 1.5, 2.0])[:, None, None]
     calibration, new = (np.stack([at - half, at + half], axis=-1) for at in (points.calibration, points.new))
-    return QuantileCalibration(calibration, points.truth, new), truth
+    return QuantileCalibration(calibration, points.truth, new, LEVELS), truth
 
 
 def _refits(kind: type[RefitCalibration]) -> Callable[[int, np.random.Generator], Made]:

@@ -119,6 +119,8 @@ def test_interval_metrics_have_a_row_for_everything(house: House) -> None:
     assert {rows.pop(name) for name in refitted} == {2 * n_refitted * 6 * 3}
     rest = [name for name in SMALL["interval_methods"] if name not in {*on_shells, *refitted}]
     expected = {name: 2 * 2 * n_runs[INTERVAL_METHODS[name].calibrated_on] * 6 * 3 for name in rest}
+    # The paper's quantiles are fitted for its level alone.
+    expected["qr"] = 2 * 2 * (1 + 3) * len(SMALL["quantile_models"]) * 6
     assert rows == expected | dict.fromkeys(SMALL["regions"], 2 * 2 * runs * 3)
     engines = table[table["interval_method"].str.startswith("scp")].pivot(
         index=[key for key in keys if key != "interval_method"], columns="interval_method", values="winkler_mm"

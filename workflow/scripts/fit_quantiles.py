@@ -2,7 +2,7 @@
 
 from softkin.core.files import read_json
 from softkin.core.job import job
-from softkin.core.runs import TUNED
+from softkin.core.runs import PAPER, TUNED, nearest_level
 from softkin.models.quantile import QUANTILE_MODELS
 from softkin.training.fit_quantiles import QuantileFiles, QuantileModel, fit_quantiles
 from softkin.training.study import StudyFile, TuningSettings
@@ -26,5 +26,7 @@ with job(snakemake.log[0], f"fit quantiles {dataset} {model}"):
         )
         fitted_with[TUNED] = read_json(output.parameters[0])["params"]
     for preset, files in of_presets:
-        regressor = QuantileModel(spec, fitted_with[preset], params.confidence_levels, params.seed, threads)
+        # The paper has one level; its pair of quantiles serves all levels of CQR.
+        levels = [nearest_level(params.confidence_levels)] if preset == PAPER else params.confidence_levels
+        regressor = QuantileModel(spec, fitted_with[preset], levels, params.seed, threads)
         fit_quantiles(table, regressor=regressor, files=files)

@@ -20,6 +20,11 @@ def bounds_frame(bounds: Array, subset: str, confidence_level: float) -> pd.Data
     return frame
 
 
+def bounds_levels(frame: pd.DataFrame) -> list[float]:
+    """The confidence levels, ascending, of tables made by `bounds_frame`."""
+    return [float(level) for level in np.unique(frame["confidence_level"])]
+
+
 def read_bounds(frame: pd.DataFrame, subset: str, confidence_levels: Sequence[float]) -> Array:
     """Bounds (n_levels, n_rows, n_coordinates, 2) in mm of one subset, out of tables made by `bounds_frame`."""
     levels = []

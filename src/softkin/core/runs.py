@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 #: Where a model's parameters come from: the paper; a search for the lowest cross-validated error; a search for the
@@ -22,3 +23,8 @@ class Run(NamedTuple):
 
 #: The confidence level of the paper's intervals.
 PAPERS_LEVEL = 0.9
+
+
+def nearest_level(confidence_levels: Sequence[float]) -> float:
+    """The configured level nearest to the paper's, at which methods are compared."""
+    return min(confidence_levels, key=lambda level: abs(level - PAPERS_LEVEL))

@@ -13,10 +13,9 @@ from numpy.typing import NDArray
 from softkin.core.bounds import read_bounds
 from softkin.core.files import replacing
 from softkin.core.metrics.interval import covered, widths, worst_slab
-from softkin.core.runs import Run
+from softkin.core.runs import Run, nearest_level
 from softkin.core.samples import TEST, TRAIN, Array, Samples, informative_coordinates
 from softkin.data.table import read_subset
-from softkin.uncertainty.choose import nearest_level
 
 N_BINS = 5
 #: Memory of MAPIE's HSIC grows with the square of the rows.

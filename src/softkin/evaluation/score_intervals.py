@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from softkin.core.bounds import read_bounds
+from softkin.core.bounds import bounds_levels, read_bounds
 from softkin.core.errors import DataError
 from softkin.core.files import replacing
 from softkin.core.metrics.interval import (
@@ -80,12 +80,12 @@ def score_intervals(
         n_calibration = _n_calibration(method, outputs)
         stored = dict(list(pd.read_parquet(intervals[name]).groupby(["model", "preset"], sort=False)))
         for run, data in outputs.of(method.calibrated_on):
-            scores = _crps(method, outputs, data, truth)
+            scores, levels = _crps(method, outputs, data, truth), bounds_levels(stored[run])
             for subset, true in truth.items():
-                bounds = read_bounds(stored[run], subset, outputs.levels)
+                bounds = read_bounds(stored[run], subset, levels)
                 crossings = _crossings(method, outputs, run, subset, bounds)
                 guarantee = method.guarantee if subset == TEST else NO_GUARANTEE
-                for place, level in enumerate(outputs.levels):
+                for place, level in enumerate(levels):
                     setting = _Setting(intervals[name], true, informative, n_calibration, level, method, guarantee)
                     key = {"dataset": dataset, "subset": subset, "model": run.model, "preset": run.preset}
                     key |= {"interval_method": name}
@@ -120,8 +120,10 @@ def _crossings(
     """Whether predicted quantiles crossed before they were put in order, (n_levels, n_rows, n_coordinates)."""
     if method.calibrated_on is not QuantileCalibration:
         return np.zeros(bounds.shape[:-1], dtype=bool)
-    raw = read_bounds(outputs.quantiles[run], subset, outputs.levels)
-    return np.asarray(raw[..., 0] > raw[..., 1])
+    # Where quantiles were fitted for one level, all levels are made from its pair.
+    fitted = bounds_levels(outputs.quantiles[run])
+    raw = read_bounds(outputs.quantiles[run], subset, fitted if len(fitted) == len(bounds) else fitted[:1])
+    return np.broadcast_to(raw[..., 0] > raw[..., 1], bounds.shape[:-1])
 
 
 def _rows(setting: _Setting, bounds: Array, crossings: NDArray[np.bool_], scores: Array) -> Iterator[dict[str, Any]]:

@@ -22,6 +22,7 @@ from mlflow.utils.mlflow_tags import MLFLOW_MODEL_VERSIONS
 
 import softkin
 from softkin.core.files import sha256_of
+from softkin.core.runs import nearest_level
 from softkin.core.samples import command_columns, coordinate_columns
 from softkin.tracking import served_model
 from softkin.tracking.model_card import model_card
@@ -39,7 +40,6 @@ from softkin.tracking.store import (
     read_description,
 )
 from softkin.uncertainty.calibrated_model import CalibratedModel
-from softkin.uncertainty.choose import nearest_level
 from softkin.uncertainty.intervals.spec import AUTO
 
 logger = logging.getLogger("softkin")

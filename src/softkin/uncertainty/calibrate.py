@@ -46,9 +46,10 @@ def calibrate(
             if isinstance(data, ShellCalibration) and run in calibrated:
                 has_spread = in_domain[run].calibrated_on.has_spread
                 data = replace(data, in_domain=calibrated[run], in_domain_has_spread=has_spread)
-            bounds = method.intervals(data, outputs.levels)
+            levels = method.levels(data, outputs.levels)
+            bounds = method.intervals(data, levels)
             for subset, of_subset in outputs.by_subset(bounds, axis=1).items():
-                for level, of_level in zip(outputs.levels, of_subset, strict=True):
+                for level, of_level in zip(levels, of_subset, strict=True):
                     frame = bounds_frame(of_level, subset, level)
                     frame.insert(0, "model", run.model)
                     frame.insert(1, "preset", run.preset)

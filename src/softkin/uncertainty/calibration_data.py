@@ -86,11 +86,14 @@ class PredictiveCalibration(SpreadCalibration):
 
 @dataclass(frozen=True)
 class QuantileCalibration(CalibrationData):
-    """Predicted quantiles of calibration rows with their true positions `truth`, and of new rows."""
+    """Predicted quantiles of calibration rows with their true positions `truth`, and of new rows, at the confidence
+    `levels` that they were fitted for.
+    """
 
     calibration: Array
     truth: Array
     new: Array
+    levels: Sequence[float]
 
     is_around_a_model: ClassVar[bool] = False
     needs_quantiles: ClassVar[bool] = True

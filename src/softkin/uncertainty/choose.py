@@ -15,7 +15,7 @@ from sklearn.model_selection import KFold
 from softkin.core.errors import ConfigError
 from softkin.core.files import replacing
 from softkin.core.metrics.interval import winkler_scores
-from softkin.core.runs import PAPERS_LEVEL, Run
+from softkin.core.runs import Run, nearest_level
 from softkin.core.samples import informative_coordinates
 from softkin.models.spec import PAPERS_RUN
 from softkin.uncertainty.calibration_data import PointCalibration, QuantileCalibration, ShellCalibration
@@ -28,11 +28,6 @@ N_FOLDS = 5
 
 #: Calibration data whose calibration rows can be split again.
 Resplittable = PointCalibration | QuantileCalibration
-
-
-def nearest_level(confidence_levels: list[float]) -> float:
-    """The configured level nearest to the paper's, at which methods are compared."""
-    return min(confidence_levels, key=lambda level: abs(level - PAPERS_LEVEL))
 
 
 def shown_runs(choice: str | Path) -> set[Run]:

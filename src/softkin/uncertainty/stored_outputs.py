@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from softkin.core.bounds import read_bounds
+from softkin.core.bounds import bounds_levels, read_bounds
 from softkin.core.run_archive import RunArchive, read_run_archive
 from softkin.core.runs import Run
 from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, VALIDATION, Array, Samples
@@ -113,9 +113,10 @@ class StoredOutputs:
 
     def _quantiles(self) -> Iterator[tuple[Run, QuantileCalibration]]:
         for run, stored in self.quantiles.items():
-            calibration = read_bounds(stored, VALIDATION, self.levels)
-            new = [read_bounds(stored, subset, self.levels) for subset in INTERVAL_SUBSETS]
-            yield run, QuantileCalibration(calibration, self.validation.positions, np.concatenate(new, axis=1))
+            levels = bounds_levels(stored)
+            calibration = read_bounds(stored, VALIDATION, levels)
+            new = [read_bounds(stored, subset, levels) for subset in INTERVAL_SUBSETS]
+            yield run, QuantileCalibration(calibration, self.validation.positions, np.concatenate(new, axis=1), levels)
 
     def _folds(self) -> Iterator[tuple[Run, FoldCalibration]]:
         if self.refits.of_runs:

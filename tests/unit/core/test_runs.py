@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 import yaml
 
-from softkin.core.runs import OUTER, PAPER, PAPERS_LEVEL, PRESETS, SEARCHED, TUNED, Run
+from softkin.core.runs import OUTER, PAPER, PAPERS_LEVEL, PRESETS, SEARCHED, TUNED, Run, nearest_level
 from tests.conftest import HOUSE
 
 
@@ -28,3 +28,8 @@ def test_every_preset_but_the_papers_has_a_study() -> None:
 
 def test_the_papers_level_is_calibrated_by_default() -> None:
     assert PAPERS_LEVEL in yaml.safe_load((HOUSE / "config" / "config.yaml").read_text())["confidence_levels"]
+
+
+def test_methods_are_compared_at_the_level_nearest_to_the_papers() -> None:
+    assert nearest_level([0.5, 0.88, 0.95]) == 0.88
+    assert nearest_level([0.8, 0.9, 0.95]) == 0.9

@@ -68,7 +68,7 @@ def quantile_calibration(n: int, seed: int = 0) -> QuantileCalibration:
     base = point_calibration(n, seed=seed)
     half = np.array([1.0, 1.5, 2.0])[:, None, None]
     calibration, new = (np.stack([c - half, c + half], axis=-1) for c in (base.calibration, base.new))
-    return QuantileCalibration(calibration, base.truth, new)
+    return QuantileCalibration(calibration, base.truth, new, LEVELS)
 
 
 def spread_calibration(

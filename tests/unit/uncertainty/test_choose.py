@@ -13,18 +13,13 @@ from softkin.core.runs import Run
 from softkin.core.samples import SUBSETS
 from softkin.data.table import read_subset, to_table, write_table
 from softkin.uncertainty.calibration_data import SpreadCalibration
-from softkin.uncertainty.choose import Resplittable, choose, deployed_choice, nearest_level, resplits, shown_runs
+from softkin.uncertainty.choose import Resplittable, choose, deployed_choice, resplits, shown_runs
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from softkin.uncertainty.stored_outputs import StoredOutputs
 from tests.conftest import bending_arm
 from tests.unit.uncertainty.conftest import garbled, quantile_calibration, spread_calibration
 
 GP, GB, LR = Run("gp", "tuned"), Run("gb", "paper"), Run("lr", "tuned")
-
-
-def test_methods_are_compared_at_the_level_nearest_to_the_papers() -> None:
-    assert nearest_level([0.5, 0.88, 0.95]) == 0.88
-    assert nearest_level([0.8, 0.9, 0.95]) == 0.9
 
 
 @pytest.mark.parametrize("data", [spread_calibration(50), quantile_calibration(50)])

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from softkin.core.runs import PAPERS_LEVEL
+from softkin.core.runs import nearest_level
 from softkin.core.samples import Array
 from softkin.uncertainty.calibration_data import QuantileCalibration
 from softkin.uncertainty.conformal import (
@@ -38,7 +38,7 @@ def intervals(data: QuantileCalibration, confidence_levels: Sequence[float], *, 
     n = len(data.truth)
     result = unbounded(len(confidence_levels), data.new.shape[1:-1])
     # The corrected pair of quantiles is that of the level nearest to the paper's.
-    base = int(np.argmin(np.abs(np.asarray(confidence_levels) - PAPERS_LEVEL)))
+    base = list(data.levels).index(nearest_level(data.levels))
     pairs, new_pairs = (_with_middle(uncrossed(quantiles[base])) for quantiles in (data.calibration, data.new))
     for place, level in enumerate(confidence_levels):
         side = level if symmetric else round(1 - (1 - level) / 2, 12)

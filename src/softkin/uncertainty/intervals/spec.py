@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 from softkin.core.samples import Array
-from softkin.uncertainty.calibration_data import CalibrationData
+from softkin.uncertainty.calibration_data import CalibrationData, QuantileCalibration
 
 #: Intervals of a calibrated model in extrapolation: those of the method of that name, or the same as in-domain.
 AUTO, IN_DOMAIN = REGIMES = ("auto", "in_domain")
@@ -26,7 +26,8 @@ class IntervalMethod(Generic[Data]):
     n_rows, n_coordinates, 2), lower and upper in mm, levels ascending. `guarantee` is one of `GUARANTEES`.
     `rank(n_calibration, level)` is the rank of which its coverage on exchangeable rows is beta-binomial; None when the
     method calibrates nothing. `has_constant_width`: symmetric, of the same width on every row.
-    `crps(data, true)` (n_rows, n_coordinates) in mm, for a method that gives a distribution.
+    `crps(data, true)` (n_rows, n_coordinates) in mm, for a method that gives a distribution. `at_fitted_levels`: it has
+    intervals at those levels only that quantiles were fitted for.
     """
 
     name: str
@@ -37,3 +38,9 @@ class IntervalMethod(Generic[Data]):
     rank: Callable[[int, float], int | None] | None = None
     has_constant_width: bool = False
     crps: Callable[[Data, Array], Array] | None = None
+    at_fitted_levels: bool = False
+
+    def levels(self, data: Data, confidence_levels: Sequence[float]) -> list[float]:
+        """Those of the levels that it has intervals for, on these calibration data."""
+        fitted = data.levels if isinstance(data, QuantileCalibration) and self.at_fitted_levels else confidence_levels
+        return [level for level in confidence_levels if level in fitted]

@@ -42,12 +42,12 @@ def test_intervals_are_romanos(n: int, symmetric: bool) -> None:
 
 def test_crossed_quantiles_are_put_in_order_before_they_are_corrected() -> None:
     data = quantile_calibration(140)
-    crossed = QuantileCalibration(data.calibration[..., ::-1], data.truth, data.new[..., ::-1])
+    crossed = QuantileCalibration(data.calibration[..., ::-1], data.truth, data.new[..., ::-1], LEVELS)
     np.testing.assert_array_equal(intervals(crossed, LEVELS), intervals(data, LEVELS))
 
 
 def test_quantiles_far_too_wide_are_moved_together_at_most_to_a_point() -> None:
     data = quantile_calibration(88)
     around_truth = data.truth[None, ..., None] + [-50.0, 50.0] + np.zeros((3, 1, 1, 1))
-    bounds = intervals(QuantileCalibration(around_truth, data.truth, data.new), LEVELS)
+    bounds = intervals(QuantileCalibration(around_truth, data.truth, data.new, LEVELS), LEVELS)
     np.testing.assert_array_equal(bounds[..., 0], bounds[..., 1])
