@@ -13,7 +13,8 @@ from softkin.uncertainty.intervals.spec import NO_GUARANTEE, IntervalMethod
 def intervals(data: QuantileCalibration, confidence_levels: Sequence[float]) -> Array:
     """The predicted quantiles at alpha/2 and 1 - alpha/2 of each level; where they cross, in order.
 
-    The levels are among those that quantiles were fitted for. Each quantile has a regressor of its own: an interval of a higher level need not contain that of a lower one.
+    The levels are among those that quantiles were fitted for. Each quantile has a regressor of its own: an interval of
+    a higher level need not contain that of a lower one.
     """
     return uncrossed(data.new[[list(data.levels).index(level) for level in confidence_levels]])
 
