@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from softkin.core.samples import Params
+from softkin.models.estimators.polynomial_terms import bounded_trend
 from softkin.models.spec import TRENDS, ModelSpec
 
 if TYPE_CHECKING:
@@ -48,5 +49,6 @@ SPEC = ModelSpec(
         {"trend": "quadratic", "n_estimators": 100, "learning_rate": 0.1, "max_depth": 3, **_WHOLE},
         {"trend": "none", "n_estimators": 250, "learning_rate": 0.05, "max_depth": 5, **_HALF},
     ),
+    bounded=bounded_trend,
     is_cheap=True,
 )

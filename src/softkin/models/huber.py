@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from softkin.core.samples import Params
+from softkin.models.estimators.polynomial_terms import bounded_degree
 from softkin.models.spec import ModelSpec
 
 if TYPE_CHECKING:
@@ -20,11 +21,13 @@ def build(params: Params, seed: int, threads: int) -> Any:
     from sklearn.linear_model import HuberRegressor
     from sklearn.multioutput import MultiOutputRegressor
     from sklearn.pipeline import make_pipeline
-    from sklearn.preprocessing import PolynomialFeatures
 
-    rest = {key: value for key, value in params.items() if key != "degree"}
-    features = PolynomialFeatures(params["degree"], include_bias=False)
-    return make_pipeline(features, MultiOutputRegressor(HuberRegressor(**rest, max_iter=MAX_ITER)))
+    from softkin.models.estimators.bounded_polynomial import BoundedPolynomial
+
+    features = {key: value for key, value in params.items() if key in ("degree", "interactions")}
+    rest = {key: value for key, value in params.items() if key not in features}
+    regressor = MultiOutputRegressor(HuberRegressor(**rest, max_iter=MAX_ITER))
+    return make_pipeline(BoundedPolynomial(**features), regressor)
 
 
 def search_space(trial: BaseTrial) -> Params:
@@ -45,6 +48,7 @@ SPEC = ModelSpec(
     paper_params={"degree": 2, "epsilon": 1.35, "alpha": 1e-4},
     search_space=search_space,
     first_trials=tuple({"degree": degree, "epsilon": 1.35, "alpha": 1e-4} for degree in (2, 3, 4)),
+    bounded=bounded_degree,
     is_cheap=True,
     is_robust=True,
 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from softkin.core.samples import Params
+from softkin.models.estimators.polynomial_terms import bounded_degree
 from softkin.models.spec import ModelSpec
 
 if TYPE_CHECKING:
@@ -18,12 +19,15 @@ def build(params: Params, seed: int, threads: int) -> Any:
     """Lasso(alpha) on polynomial features of `degree` (default 1), standardised so that one penalty suits all."""
     from sklearn.linear_model import Lasso
     from sklearn.pipeline import make_pipeline
-    from sklearn.preprocessing import PolynomialFeatures, StandardScaler
+    from sklearn.preprocessing import StandardScaler
 
-    regressor = Lasso(alpha=params["alpha"], max_iter=MAX_ITER, precompute=True)
-    if params.get("degree", 1) == 1:
+    from softkin.models.estimators.bounded_polynomial import BoundedPolynomial
+
+    rest = dict(params)
+    regressor = Lasso(alpha=rest.pop("alpha"), max_iter=MAX_ITER, precompute=True)
+    if rest.get("degree", 1) == 1:
         return regressor
-    return make_pipeline(PolynomialFeatures(params["degree"], include_bias=False), StandardScaler(), regressor)
+    return make_pipeline(BoundedPolynomial(**rest), StandardScaler(), regressor)
 
 
 def search_space(trial: BaseTrial) -> Params:
@@ -42,5 +46,6 @@ SPEC = ModelSpec(
     paper_params={"alpha": 0.1},
     search_space=search_space,
     first_trials=({"degree": 1, "alpha": 0.1}, {"degree": 2, "alpha": 1e-3}, {"degree": 3, "alpha": 1e-4}),
+    bounded=bounded_degree,
     is_cheap=True,
 )

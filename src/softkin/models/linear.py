@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from softkin.core.samples import Params
+from softkin.models.estimators.polynomial_terms import bounded_degree
 from softkin.models.spec import ModelSpec
 
 if TYPE_CHECKING:
@@ -12,15 +13,15 @@ if TYPE_CHECKING:
 
 
 def build(params: Params, seed: int, threads: int) -> Any:
-    """OLS; `degree` (default 1) expands the commands, `interaction_only` leaves out pure powers."""
+    """OLS; `degree` (default 1) expands the commands, `interaction_only` leaves out pure powers, `interactions: False`
+    all products of commands.
+    """
     from sklearn.linear_model import LinearRegression
     from sklearn.pipeline import make_pipeline
-    from sklearn.preprocessing import PolynomialFeatures
 
-    features = PolynomialFeatures(
-        params.get("degree", 1), interaction_only=params.get("interaction_only", False), include_bias=False
-    )
-    return make_pipeline(features, LinearRegression())
+    from softkin.models.estimators.bounded_polynomial import BoundedPolynomial
+
+    return make_pipeline(BoundedPolynomial(**params), LinearRegression())
 
 
 def search_space(trial: BaseTrial) -> Params:
@@ -42,5 +43,6 @@ SPEC = ModelSpec(
     paper_params={},
     search_space=search_space,
     first_trials=tuple({"degree": degree, "interaction_only": False} for degree in (1, 2, 3)),
+    bounded=bounded_degree,
     is_cheap=True,
 )

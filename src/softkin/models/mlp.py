@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from softkin.core.samples import Array, Params, Samples
+from softkin.models.estimators.polynomial_terms import bounded_trend
 from softkin.models.spec import TRENDS, ModelSpec
 
 if TYPE_CHECKING:
@@ -94,6 +95,7 @@ SPEC = ModelSpec(
         {"trend": "linear", **_START, "width": 16, "alpha": 1e-2, "networks": 3},
         {"trend": "none", **_START, "width": 32, "alpha": 1e-3, "networks": 1},
     ),
+    bounded=bounded_trend,
     spread=spread,
     is_predictive=True,
 )

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from softkin.core.samples import Array, Params, Samples
+from softkin.models.estimators.polynomial_terms import bounded_trend
 from softkin.models.spec import TRENDS, ModelSpec
 
 if TYPE_CHECKING:
@@ -56,6 +57,7 @@ SPEC = ModelSpec(
     paper_params={"n_estimators": 100, "max_depth": 2},
     search_space=search_space,
     first_trials=tuple({"trend": trend, **_START} for trend in TRENDS),
+    bounded=bounded_trend,
     spread=spread,
     is_cheap=True,
 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from softkin.core.samples import Params
+from softkin.models.estimators.polynomial_terms import bounded_degree
 from softkin.models.spec import ModelSpec
 
 if TYPE_CHECKING:
@@ -15,10 +16,13 @@ def build(params: Params, seed: int, threads: int) -> Any:
     """Polynomial of `degree` with a penalty of `alpha` on its standardised terms."""
     from sklearn.linear_model import Ridge
     from sklearn.pipeline import make_pipeline
-    from sklearn.preprocessing import PolynomialFeatures, StandardScaler
+    from sklearn.preprocessing import StandardScaler
 
-    features = PolynomialFeatures(params["degree"], include_bias=False)
-    return make_pipeline(features, StandardScaler(), Ridge(alpha=params["alpha"]))
+    from softkin.models.estimators.bounded_polynomial import BoundedPolynomial
+
+    rest = dict(params)
+    alpha = rest.pop("alpha")
+    return make_pipeline(BoundedPolynomial(**rest), StandardScaler(), Ridge(alpha=alpha))
 
 
 def search_space(trial: BaseTrial) -> Params:
@@ -38,5 +42,6 @@ SPEC = ModelSpec(
     paper_params={"degree": 2, "alpha": 1.0},
     search_space=search_space,
     first_trials=tuple({"degree": degree, "alpha": 1e-3} for degree in (2, 3)),
+    bounded=bounded_degree,
     is_cheap=True,
 )

@@ -28,6 +28,11 @@ class Regressor(Protocol):
         """Targets of commands X."""
 
 
+def as_drawn(params: Params, n_commands: int, n_rows: int) -> Params:
+    """`params`, whatever the number of commands and rows."""
+    return params
+
+
 @dataclass(frozen=True, slots=True)
 class ModelSpec:
     """One point model.
@@ -35,10 +40,12 @@ class ModelSpec:
     `build(params, seed, threads)` returns an unfitted multi-output scikit-learn regressor that works in
     standardised space. `paper_params` are the fixed settings of the paper's rows, or scikit-learn's own for a model
     that the paper does not have. `search_space(trial)` draws the parameters of a searched model; `first_trials` are
-    drawn before the sampler draws on its own. `spread(regressor, train, commands)`, where the model has one, estimates
-    its own uncertainty: (n_rows, n_targets), everything standardised; `is_predictive` says that this is the standard
-    deviation of a whole predictive distribution. `is_cheap` admits it to the interval methods that refit (CV+,
-    jackknife+-after-bootstrap). `is_robust` says that a few gross errors in `train` cannot move its fit.
+    drawn before the sampler draws on its own. `bounded(params, n_commands, n_rows)` are the parameters that a fit of so
+    many rows really has: a polynomial of many commands gets a lower degree. `spread(regressor, train, commands)`, where
+    the model has one, estimates its own uncertainty: (n_rows, n_targets), everything standardised; `is_predictive` says
+    that this is the standard deviation of a whole predictive distribution. `is_cheap` admits it to the interval methods
+    that refit (CV+, jackknife+-after-bootstrap). `is_robust` says that a few gross errors in `train` cannot move its
+    fit.
     """
 
     name: str
@@ -48,6 +55,7 @@ class ModelSpec:
     paper_params: Params
     search_space: Callable[[BaseTrial], Params]
     first_trials: tuple[Mapping[str, Any], ...]
+    bounded: Callable[[Params, int, int], Params] = as_drawn
     spread: Callable[[Regressor, Samples, Array], Array] | None = None
     is_predictive: bool = False
     is_cheap: bool = False

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from softkin.core.samples import Params
+from softkin.models.estimators.polynomial_terms import bounded_trend
 from softkin.models.spec import TRENDS, ModelSpec
 
 if TYPE_CHECKING:
@@ -54,5 +55,6 @@ SPEC = ModelSpec(
         {"trend": "linear", "kernel": "rbf", "C": 10.0, "epsilon": 0.01, "gamma": 0.3},
         {"trend": "none", "kernel": "poly", "C": 1.0, "epsilon": 0.01, "gamma": 0.3, "degree": 2},
     ),
+    bounded=bounded_trend,
     is_cheap=True,
 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from softkin.core.samples import Params
+from softkin.models.estimators.polynomial_terms import bounded_trend
 from softkin.models.spec import TRENDS, ModelSpec
 
 if TYPE_CHECKING:
@@ -51,5 +52,6 @@ SPEC = ModelSpec(
     paper_params={},
     search_space=search_space,
     first_trials=tuple({"trend": trend, **_START} for trend in TRENDS),
+    bounded=bounded_trend,
     is_cheap=True,
 )

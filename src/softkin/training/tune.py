@@ -24,6 +24,7 @@ from softkin.core.shells import command_norm, outer_shells
 from softkin.data.table import read_subset
 from softkin.models.spec import ModelSpec
 from softkin.models.target_spaces import TARGET_SPACES
+from softkin.training.bounded_space import bounded_space
 from softkin.training.kinematic_model import FitSettings, fitted_model
 from softkin.training.study import Search, StudyFile, TuningResult, TuningSettings, bounded_rows, record, run_study
 
@@ -168,8 +169,10 @@ def tune_model(
     def errors_of(params: Params, by: str) -> Iterator[float]:
         return part_errors(spec, params, rows, parts[by], robot, settings.seed, threads)
 
+    draw = bounded_space(spec, rows.commands.shape[1], parts[preset])
+
     def search_space(trial: Trial) -> Params:
-        return {SPACE: trial.suggest_categorical(SPACE, spaces), **spec.search_space(trial)}
+        return {SPACE: trial.suggest_categorical(SPACE, spaces), **draw(trial)}
 
     decides = [preset, *spaces, str(robot), str(search.max_markers), *map(str, search.core_shares)]
     result = run_study(

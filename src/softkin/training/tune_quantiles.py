@@ -16,6 +16,7 @@ from softkin.core.samples import TRAIN, Array, Params, Samples, informative_coor
 from softkin.core.threads import limited_threads
 from softkin.data.table import read_subset
 from softkin.models.quantile.spec import QuantileSpec
+from softkin.training.bounded_space import bounded_space
 from softkin.training.fit_quantiles import QuantileModel
 from softkin.training.study import Search, StudyFile, TuningSettings, bounded_rows, record, run_study
 
@@ -94,7 +95,7 @@ def tune_quantiles(
         samples,
         search=Search(
             name=f"quantiles of {spec.name}",
-            space=spec.search_space,
+            space=bounded_space(spec, rows.commands.shape[1], folds),
             first_trials=spec.first_trials,
             errors_of=lambda params: pinball_errors(spec, params, rows, folds, settings.seed, threads),
             n_parts=len(folds),

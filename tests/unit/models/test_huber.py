@@ -30,5 +30,5 @@ def test_each_coordinate_has_a_regressor_of_its_own_on_shared_powers() -> None:
     pipeline = SPEC.build({"degree": 2, "epsilon": 1.5, "alpha": 1e-3}, 0, 1).fit(rows.commands, rows.positions)
     features, regressors = pipeline[0], pipeline[-1].estimators_
     assert len(regressors) == 3
-    assert features.n_output_features_ == 9  # 3 commands, 3 squares, 3 products
+    assert len(features.terms_) == 9  # 3 commands, 3 squares, 3 products
     assert {(each.epsilon, each.alpha, each.max_iter) for each in regressors} == {(1.5, 1e-3, MAX_ITER)}

@@ -98,6 +98,15 @@ def test_an_arm_that_bends_in_arcs_gets_curvature_coordinates(tmp_path: Path) ->
     assert by_preset[TUNED]["cv_mae_mm"] <= by_preset[OUTER]["cv_mae_mm"]
 
 
+def test_parameters_of_many_commands_are_recorded_as_the_smallest_part_has_them(tmp_path: Path) -> None:
+    """120 rows: 90 in each fold, 60 in the smaller core; degree 2 of 12 commands has 90 terms."""
+    by_preset = tuned(bending_arm(120, n_commands=12), "ridge", tmp_path, n_trials=3)
+    assert by_preset[TUNED]["params"]["degree"] == 2
+    assert "interactions" not in by_preset[TUNED]["params"]
+    assert by_preset[OUTER]["params"]["degree"] == 2
+    assert by_preset[OUTER]["params"]["interactions"] is False
+
+
 @pytest.mark.parametrize("objective", OBJECTIVES)
 def test_a_rigid_arm_of_two_links_gets_positions(objective: str, two_links: pd.DataFrame) -> None:
     """By the run that is chosen; a poor model may be less poor in arcs."""

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from softkin.core.samples import Params
+from softkin.models.estimators.polynomial_terms import bounded_trend
 from softkin.models.quantile.spec import QuantileSpec
 from softkin.models.spec import TRENDS
 
@@ -42,4 +43,5 @@ SPEC = QuantileSpec(
     paper_params={},
     search_space=search_space,
     first_trials=tuple({"trend": trend, **_START} for trend in TRENDS),
+    bounded=bounded_trend,
 )

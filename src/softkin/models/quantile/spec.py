@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from softkin.core.samples import Params
+from softkin.models.spec import as_drawn
 
 if TYPE_CHECKING:
     from optuna.trial import BaseTrial
@@ -17,7 +18,8 @@ class QuantileSpec:
     """One quantile regressor.
 
     `build(params, quantiles, seed, threads)` returns an unfitted regressor of one coordinate, in standardised space,
-    that predicts (n_rows, n_quantiles). `paper_params`, `search_space` and `first_trials` are as for a point model.
+    that predicts (n_rows, n_quantiles). `paper_params`, `search_space`, `first_trials` and `bounded` are as for a point
+    model.
     """
 
     name: str
@@ -26,3 +28,4 @@ class QuantileSpec:
     paper_params: Params
     search_space: Callable[[BaseTrial], Params]
     first_trials: tuple[Mapping[str, Any], ...]
+    bounded: Callable[[Params, int, int], Params] = as_drawn

@@ -47,11 +47,13 @@ def _probability_new(commands: Array, is_new: Array, seed: int) -> Array:
     from sklearn.linear_model import LogisticRegression
     from sklearn.model_selection import StratifiedKFold, cross_val_predict
     from sklearn.pipeline import make_pipeline
-    from sklearn.preprocessing import PolynomialFeatures, StandardScaler
+    from sklearn.preprocessing import StandardScaler
+
+    from softkin.models.estimators.bounded_polynomial import BoundedPolynomial
 
     classifier = make_pipeline(
         StandardScaler(),
-        PolynomialFeatures(2, include_bias=False),
+        BoundedPolynomial(2),
         StandardScaler(),
         LogisticRegression(max_iter=1000),
     )
