@@ -45,9 +45,11 @@ class House:
             timeout=MAX_SECONDS,
         )
 
-    def command(self, *options: str, cores: int = 2, work: Path | None = None, more: Path | None = None) -> list[str]:
-        """The command line of a run."""
-        command = [sys.executable, "-m", "snakemake", "--cores", str(cores)]
+    def command(
+        self, *options: str, cores: int | None = 2, work: Path | None = None, more: Path | None = None
+    ) -> list[str]:
+        """The command line of a run; `cores` is None where an executor hands out the jobs."""
+        command = [sys.executable, "-m", "snakemake", *(["--cores", str(cores)] if cores else [])]
         command += ["--snakefile", str(self.root / "Snakefile"), "--directory", str(work or self.work), *options]
         configuration = [self.root / "config" / "test.yaml", self.mirror / "override.yaml", *([more] if more else [])]
         return [*command, "--configfile", *map(str, configuration)]

@@ -5,14 +5,9 @@ from __future__ import annotations
 import os
 import re
 import shutil
-import socket
 import subprocess
 import sys
-import time
-import urllib.error
-import urllib.request
 from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +21,7 @@ from softkin.core.files import sha256_of
 from softkin.tracking.store import KEY, PARENT
 from tests.conftest import HOUSE
 from tests.workflow.conftest import House
+from tests.workflow.mlflow_server import postgresql, serving, sqlite
 
 pytestmark = pytest.mark.timeout(600)
 
@@ -111,50 +107,11 @@ def test_the_store_is_made_again_from_results_with_the_same_content(house: House
     assert {name: (before[name], after[name]) for name in before if after[name] != before[name]} == {}
 
 
-def sqlite(folder: Path) -> Iterator[str]:
-    """URI of a new database."""
-    yield f"sqlite:///{folder / 'server.db'}"
-
-
-def postgresql(folder: Path) -> Iterator[str]:
-    """URI of a new database of a real PostgreSQL, which `make campaigns` installs."""
-    process = pytest.importorskip("pgserver").get_server(folder / "postgresql")
-    try:
-        yield process.get_uri()
-    finally:
-        process.cleanup()
-
-
 @pytest.fixture(params=[sqlite, pytest.param(postgresql, marks=pytest.mark.slow)])
 def server(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[str]:
     """URI of an MLflow server with a database behind it, that keeps the artifacts too."""
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
-    command = [sys.executable, "-m", "mlflow", "server", "--host", "127.0.0.1", "--port", str(port), "--workers", "1"]
-    command += ["--artifacts-destination", str(tmp_path / "kept")]
-    environment = os.environ | {"MLFLOW_SERVER_ENABLE_JOB_EXECUTION": "false", "MLFLOW_DISABLE_TELEMETRY": "true"}
-    uri = f"http://127.0.0.1:{port}"
-    with contextmanager(request.param)(tmp_path) as database, (tmp_path / "server.log").open("w") as log:
-        command += ["--backend-store-uri", database]
-        process = subprocess.Popen(command, env=environment, cwd=tmp_path, stdout=log, stderr=log)
-        try:
-            _wait_for(uri, process)
-            yield uri
-        finally:
-            process.terminate()
-            process.wait(30)
-
-
-def _wait_for(uri: str, process: subprocess.Popen[bytes], seconds: float = 120) -> None:
-    until = time.monotonic() + seconds
-    while process.poll() is None and time.monotonic() < until:
-        try:
-            with urllib.request.urlopen(f"{uri}/health", timeout=5):
-                return
-        except (urllib.error.URLError, OSError):
-            time.sleep(0.5)
-    raise AssertionError(f"the server is not up, exit status {process.poll()}")
+    with request.param(tmp_path) as database, serving(database, tmp_path) as running:
+        yield running.uri
 
 
 def test_a_server_takes_the_place_of_the_file(house: House, server: str, tmp_path: Path) -> None:

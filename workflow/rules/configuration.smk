@@ -4,10 +4,9 @@ import sys
 
 from snakemake.exceptions import WorkflowError
 
-from softkin.core.configuration import check_configuration
 from softkin.core.errors import SoftkinError
 from softkin.data.readers import READERS
-from softkin.data.reachability import warning, with_stand_ins
+from softkin.data.reachability import out_of_reach, warning, with_stand_ins
 from softkin.data.split import has_standardised_norm
 from softkin.data.standins import STANDINS
 from softkin.models import MODELS
@@ -19,30 +18,57 @@ from softkin.uncertainty.regions import REGION_METHODS
 # the time.
 os.environ.update(OMP_NUM_THREADS="1")
 
-try:
-    check_configuration(
-        config,
-        Path(workflow.basedir) / "workflow" / "schemas" / "config.schema.yaml",
-        {
-            "models": MODELS,
-            "formats": READERS,
-            "interval_methods": INTERVAL_METHODS,
-            "quantile_models": QUANTILE_MODELS,
-            "regions": REGION_METHODS,
-            "standins": STANDINS,
-        },
-    )
-except SoftkinError as error:
-    raise WorkflowError(str(error)) from None
+# A job on another node starts Snakemake again. What the main process has checked and looked for, it takes as it is told:
+# its node may reach neither the internet nor the mirror. The names of the datasets that stand-ins replace are in here.
+TOLD = "SOFTKIN_STAND_INS_OF"
 
-STANDING_IN = []
-if config["when_unreachable"] == "simulate":
-    config["datasets"], config["sources"], STANDING_IN = with_stand_ins(
+
+def check():
+    """Stop where the configuration cannot be used."""
+    from softkin.core.configuration import check_configuration
+
+    try:
+        check_configuration(
+            config,
+            Path(workflow.basedir) / "workflow" / "schemas" / "config.schema.yaml",
+            {
+                "models": MODELS,
+                "formats": READERS,
+                "interval_methods": INTERVAL_METHODS,
+                "quantile_models": QUANTILE_MODELS,
+                "regions": REGION_METHODS,
+                "standins": STANDINS,
+            },
+        )
+    except SoftkinError as error:
+        raise WorkflowError(str(error)) from None
+
+
+def to_be_replaced():
+    """The datasets that cannot be had now, where stand-ins are to take their place."""
+    if config["when_unreachable"] != "simulate":
+        return []
+    return out_of_reach(
         config["datasets"],
         config["sources"],
         mirror=os.environ.get("SOFTKIN_DATA_MIRROR") or config.get("data_mirror"),
         retrieved={name: Path(f"results/{name}/raw") for name in config["datasets"]},
     )
+
+
+if workflow.is_main_process:
+    check()
+    os.environ[TOLD] = ",".join(to_be_replaced())
+
+
+envvars:
+    TOLD,
+
+
+STANDING_IN = [name for name in os.environ[TOLD].split(",") if name]
+config["datasets"], config["sources"] = with_stand_ins(
+    config["datasets"], config["sources"], STANDING_IN
+)
 
 # For `--software-deployment-method conda`; unused otherwise.
 SOFTWARE = "../envs/softkin.yaml"
@@ -50,7 +76,14 @@ SOFTWARE = "../envs/softkin.yaml"
 
 def source(wildcards):
     """The dataset's entry in config/datasets.yaml."""
+    if wildcards.dataset not in config["sources"]:
+        raise WorkflowError(f"{wildcards.dataset} is no entry of config/datasets.yaml")
     return config["sources"][wildcards.dataset]
+
+
+def overrides(wildcards):
+    """The settings of the paper's model that differ on the dataset."""
+    return source(wildcards).get("paper_params", {}).get(wildcards.model, {})
 
 
 def own_file(wildcards):

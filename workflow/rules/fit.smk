@@ -29,9 +29,7 @@ rule fit_model:
         tuning=tuning("n_trials", "n_outer_trials", "max_markers", "core_shares"),
         target_spaces=config["target_spaces"],
         objective=config["objective"],
-        overrides=lookup(
-            dpath="sources/{dataset}/paper_params/{model}", within=config, default={}
-        ),
+        overrides=overrides,
         max_rows=max_fit_rows,
         seed=config["seed"],
         code=model_code,

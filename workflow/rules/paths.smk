@@ -33,8 +33,9 @@ TABLES = [
 SEARCHED_PRESETS = [preset for preset in config["presets"] if preset in SEARCHED]
 
 
+# Each file is held against these, and there are hundreds of a dataset: a list of a thousand names would be read each time.
 wildcard_constraints:
-    dataset="|".join(config["sources"]),
+    dataset="(?!(?:tables|logs|benchmarks|studies)/)[a-z][a-z0-9_]*",
     model="|".join(MODELS),
     preset="|".join(PRESETS),
     quantile_model="|".join(QUANTILE_MODELS),

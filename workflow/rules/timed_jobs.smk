@@ -17,15 +17,15 @@ def timed_jobs():
         per_dataset.insert(0, "refit")
     jobs = []
     for dataset in config["datasets"]:
-        for name, (models, records) in per_model.items():
+        for stage, (models, records) in per_model.items():
             for model in models:
-                benchmark = f"results/benchmarks/{name}/{dataset}/{model}.tsv"
+                benchmark = f"results/benchmarks/{stage}/{dataset}/{model}.tsv"
                 names = {"dataset": dataset, "model": model, "quantile_model": model}
                 jobs.append(
-                    ([name, dataset, model], benchmark, expand(records, **names))
+                    ([stage, dataset, model], benchmark, expand(records, **names))
                 )
-        for name in per_dataset:
+        for stage in per_dataset:
             jobs.append(
-                ([name, dataset, ""], f"results/benchmarks/{name}/{dataset}.tsv", [])
+                ([stage, dataset, ""], f"results/benchmarks/{stage}/{dataset}.tsv", [])
             )
     return jobs

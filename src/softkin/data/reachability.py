@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlparse
-
-import requests
 
 from softkin.core.errors import RetrievalError
 
@@ -35,27 +33,31 @@ def stand_in_entry(entry: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def with_stand_ins(
+def out_of_reach(
     datasets: Iterable[str],
     sources: Mapping[str, Mapping[str, Any]],
     *,
     mirror: str | None,
     retrieved: Mapping[str, Path],
-) -> tuple[list[str], dict[str, Any], list[str]]:
-    """(datasets, sources, replaced): every unreachable dataset is replaced by its stand-in, under a name of its own.
+) -> list[str]:
+    """Which `datasets` cannot be had now, and have a stand-in.
 
-    A dataset that was `retrieved` before (dataset -> file) stays, and so does one without `standin` in its entry.
+    A dataset that was `retrieved` before (dataset -> file) can be had, and so can one without `standin` in its entry.
     """
-    names, entries, replaced = [], {name: dict(entry) for name, entry in sources.items()}, []
-    for name in datasets:
-        entry = entries[name]
-        if "standin" not in entry or retrieved[name].exists() or is_reachable(entry, mirror):
-            names.append(name)
-            continue
-        replaced.append(name)
-        names.append(name + SUFFIX)
-        entries[name + SUFFIX] = stand_in_entry(entry)
-    return names, entries, replaced
+    return [
+        name
+        for name in datasets
+        if "standin" in sources[name] and not retrieved[name].exists() and not is_reachable(sources[name], mirror)
+    ]
+
+
+def with_stand_ins(
+    datasets: Iterable[str], sources: Mapping[str, Mapping[str, Any]], replaced: Collection[str]
+) -> tuple[list[str], dict[str, Any]]:
+    """(datasets, sources): each dataset that is `replaced` has its stand-in there, under a name of its own."""
+    entries = {name: dict(entry) for name, entry in sources.items()}
+    entries |= {name + SUFFIX: stand_in_entry(sources[name]) for name in replaced}
+    return [name + SUFFIX if name in replaced else name for name in datasets], entries
 
 
 def warning(replaced: Iterable[str]) -> str:
@@ -79,6 +81,8 @@ def _places(entry: Mapping[str, Any], mirror: str | None) -> Iterator[str]:
 def _answers(place: str) -> bool:
     if urlparse(place).scheme not in ("http", "https"):
         return Path(place).is_file()
+    import requests  # takes a fifth of a second, which each job on a cluster would pay
+
     try:
         return requests.head(place, timeout=PROBE_SECONDS, allow_redirects=True).ok
     except requests.RequestException:

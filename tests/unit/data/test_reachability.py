@@ -10,7 +10,7 @@ import pytest
 
 from softkin.core.files import write_json
 from softkin.core.samples import SUBSETS
-from softkin.data.reachability import is_reachable, stand_in_entry, warning, with_stand_ins
+from softkin.data.reachability import is_reachable, out_of_reach, stand_in_entry, warning, with_stand_ins
 from softkin.data.readers import READERS
 
 ROWS = {"train": 20, "validation": 4, "test": 4, "extrapolation": 8}
@@ -60,15 +60,15 @@ def test_an_unreachable_dataset_is_replaced_under_a_name_of_its_own(tmp_path: Pa
     sources["plain"] = {key: value for key, value in ENTRY.items() if key != "standin"} | {"urls": []}
     retrieved = {name: tmp_path / ("retrieved" if name == "before" else "no") for name in sources}
     wanted = ["finger", "before", "plain"]
-    names, entries, replaced = with_stand_ins(wanted, sources, mirror=None, retrieved=retrieved)
+    assert out_of_reach(wanted, sources, mirror=None, retrieved=retrieved) == ["finger"]
+    assert out_of_reach(wanted, sources, mirror=str(tmp_path), retrieved=retrieved) == ["finger"]
+    names, entries = with_stand_ins(wanted, sources, ["finger"])
     assert names == ["finger_standin", "before", "plain"]
-    assert replaced == ["finger"]
     assert set(entries) == {*sources, "finger_standin"}
     assert sources["finger"]["title"] == ENTRY["title"]
-    again = with_stand_ins(wanted, sources, mirror=str(tmp_path), retrieved=retrieved)
     (tmp_path / "FINGER.json").write_text("{}")
-    assert again[2] == ["finger"]
-    assert with_stand_ins(wanted, sources, mirror=str(tmp_path), retrieved=retrieved)[2] == []
+    assert out_of_reach(wanted, sources, mirror=str(tmp_path), retrieved=retrieved) == []
+    assert with_stand_ins(wanted, sources, []) == (wanted, sources)
 
 
 def test_a_stand_in_says_what_it_is_and_keeps_nothing_of_the_paper() -> None:
