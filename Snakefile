@@ -31,18 +31,8 @@ include: "workflow/rules/tables.smk"
 include: "workflow/rules/timed_jobs.smk"
 include: "workflow/rules/report.smk"
 include: "workflow/rules/track.smk"
+include: "workflow/rules/local.smk"
 include: "workflow/rules/watch.smk"
-
-
-# Where an executor hands jobs to other nodes, these stay with it: they need the internet, or the store of MLflow, which
-# may be a file of this machine's; or they take a second, which is less than a job on another node takes to start.
-localrules:
-    retrieve,
-    create_store,
-    track,
-    build_tables,
-    draw_campaign_figures,
-    build_report,
 
 
 rule all:
