@@ -17,9 +17,10 @@ if TYPE_CHECKING:
 
 def build(params: Params, seed: int, threads: int) -> Any:
     """KNeighborsRegressor(**params)."""
-    # Any scikit-learn regressor of several targets; one of a single target goes into a MultiOutputRegressor. Commands
-    # and positions come standardised. Import the library here: Snakemake imports this module each time it starts.
-    # Pass `seed` on to whatever draws at random, and use at most `threads` threads.
+    # Any scikit-learn regressor of several targets; one of a single target goes into a PerTarget, of
+    # softkin.models.estimators.per_target. Commands and positions come standardised. Import the library here: Snakemake
+    # imports this module each time it starts. Pass `seed` on to whatever draws at random, and use at most `threads`
+    # threads.
     from sklearn.neighbors import KNeighborsRegressor
 
     return KNeighborsRegressor(**params, n_jobs=threads)

@@ -51,6 +51,17 @@ def predicts_all_coordinates_within_the_workspace(_name: str, spec: ModelSpec) -
     assert np.abs(predicted - probe.positions).mean() < 0.6 * size
 
 
+def fits_a_robot_of_one_moving_coordinate(_name: str, spec: ModelSpec) -> None:
+    samples, probe = (bending_arm(n, seed=n) for n in (80, 30))
+    for rows in (samples, probe):
+        rows.positions[:, 1:] = 5.0
+    size = np.abs(probe.positions[:, 0] - samples.positions[:, 0].mean()).mean()
+    for params in (spec.paper_params, *laws.first_params(spec)):
+        predicted = fitted(spec, params, samples).predict(probe.commands)
+        np.testing.assert_array_equal(predicted[:, 1:], 5.0)
+        assert np.abs(predicted - probe.positions)[:, 0].mean() < size
+
+
 def repeats_itself_under_a_seed(_name: str, spec: ModelSpec) -> None:
     """To the bit, whatever numpy's global random state is, which scikit-learn itself draws from."""
     samples, probe = bending_arm(60), bending_arm(20, seed=1)
@@ -119,6 +130,7 @@ LAWS = (
     is_named,
     has_sound_parameters,
     predicts_all_coordinates_within_the_workspace,
+    fits_a_robot_of_one_moving_coordinate,
     repeats_itself_under_a_seed,
     is_the_same_when_stored,
     fits_at_any_point_of_its_search_space,
@@ -169,6 +181,10 @@ def noisy_by_the_global_state(predicted: Array) -> Array:
     return predicted + 1e-9 * np.random.standard_normal()
 
 
+def wrong_if_flat(predicted: Array) -> Array:
+    return predicted + 9.0 if predicted.ndim == 1 else predicted
+
+
 def eating_its_parameters(params: Params, seed: int, _: int) -> Any:
     params["seed"] = seed
     return LinearRegression()
@@ -182,6 +198,7 @@ def eating_its_parameters(params: Params, seed: int, _: int) -> Any:
         (has_sound_parameters, "ridge", {"first_trials": ({"degree": 2, "alpha": 1e-3, "no_such": 1.0},)}),
         (has_sound_parameters, "lr", {"paper_params": {"shape": (2, 3)}}),
         (predicts_all_coordinates_within_the_workspace, "lr", built(predictions=np.zeros_like)),
+        (fits_a_robot_of_one_moving_coordinate, "lr", built(predictions=wrong_if_flat)),
         (repeats_itself_under_a_seed, "lr", built(predictions=noisy)),
         (repeats_itself_under_a_seed, "lr", built(predictions=noisy_by_the_global_state)),
         (repeats_itself_under_a_seed, "lr", {"build": eating_its_parameters}),

@@ -15,11 +15,11 @@ if TYPE_CHECKING:
 def build(params: Params, seed: int, threads: int) -> Any:
     """One GradientBoostingRegressor(**params) per coordinate, on the residuals of a `trend`."""
     from sklearn.ensemble import GradientBoostingRegressor
-    from sklearn.multioutput import MultiOutputRegressor
 
     from softkin.models.estimators.detrended import detrended
+    from softkin.models.estimators.per_target import PerTarget
 
-    return detrended(lambda rest: MultiOutputRegressor(GradientBoostingRegressor(**rest, random_state=seed)), params)
+    return detrended(lambda rest: PerTarget(GradientBoostingRegressor(**rest, random_state=seed)), params)
 
 
 def search_space(trial: BaseTrial) -> Params:

@@ -19,15 +19,14 @@ def build(params: Params, seed: int, threads: int) -> Any:
     residual counts linearly, so that a gross error hardly changes the fit.
     """
     from sklearn.linear_model import HuberRegressor
-    from sklearn.multioutput import MultiOutputRegressor
     from sklearn.pipeline import make_pipeline
 
     from softkin.models.estimators.bounded_polynomial import BoundedPolynomial
+    from softkin.models.estimators.per_target import PerTarget
 
     features = {key: value for key, value in params.items() if key in ("degree", "interactions")}
     rest = {key: value for key, value in params.items() if key not in features}
-    regressor = MultiOutputRegressor(HuberRegressor(**rest, max_iter=MAX_ITER))
-    return make_pipeline(BoundedPolynomial(**features), regressor)
+    return make_pipeline(BoundedPolynomial(**features), PerTarget(HuberRegressor(**rest, max_iter=MAX_ITER)))
 
 
 def search_space(trial: BaseTrial) -> Params:

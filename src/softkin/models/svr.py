@@ -19,12 +19,12 @@ CACHE_MB = 400
 
 def build(params: Params, seed: int, threads: int) -> Any:
     """One SVR(**params) per coordinate, on the residuals of a `trend`; `max_iter` (default none) bounds the solver."""
-    from sklearn.multioutput import MultiOutputRegressor
     from sklearn.svm import SVR
 
     from softkin.models.estimators.detrended import detrended
+    from softkin.models.estimators.per_target import PerTarget
 
-    return detrended(lambda rest: MultiOutputRegressor(SVR(**rest, cache_size=CACHE_MB)), params)
+    return detrended(lambda rest: PerTarget(SVR(**rest, cache_size=CACHE_MB)), params)
 
 
 def search_space(trial: BaseTrial) -> Params:

@@ -42,4 +42,4 @@ def test_the_bound_stops_the_solver_and_is_none_for_the_paper() -> None:
     rows = bending_arm(60)
     with pytest.warns(ConvergenceWarning):
         build({"C": 100.0, "epsilon": 1e-3, "max_iter": 2}, 0, 1).fit(rows.commands, rows.positions)
-    assert build({**SPEC.paper_params}, 0, 1).estimator.max_iter == -1
+    assert build({**SPEC.paper_params}, 0, 1).regressor.max_iter == -1
