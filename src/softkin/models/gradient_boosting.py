@@ -13,41 +13,41 @@ if TYPE_CHECKING:
 
 
 def build(params: Params, seed: int, threads: int) -> Any:
-    """One GradientBoostingRegressor(**params) per coordinate, on the residuals of a `trend`."""
-    from sklearn.ensemble import GradientBoostingRegressor
-
+    """One ensemble of `boosted_trees` per coordinate, on the residuals of a `trend`."""
+    from softkin.models.estimators.boosted_trees import boosted_trees
     from softkin.models.estimators.detrended import detrended
     from softkin.models.estimators.per_target import PerTarget
 
-    return detrended(lambda rest: PerTarget(GradientBoostingRegressor(**rest, random_state=seed)), params)
+    return detrended(lambda rest: PerTarget(boosted_trees(rest, seed)), params)
 
 
 def search_space(trial: BaseTrial) -> Params:
-    """At most 250 trees of depth 6: with 21 coordinates (ABAQUS) no model costs more to fit."""
+    """Histograms of 255 bins, the most there are: fewer cost a noiseless robot a third of its accuracy."""
     return {
+        "tree_method": "hist",
         "trend": trial.suggest_categorical("trend", TRENDS),
-        "n_estimators": trial.suggest_int("n_estimators", 100, 250, step=50),
+        "max_iter": trial.suggest_int("max_iter", 100, 250, step=50),
         "learning_rate": trial.suggest_float("learning_rate", 0.03, 0.3, log=True),
-        "max_depth": trial.suggest_int("max_depth", 2, 6),
-        "subsample": trial.suggest_float("subsample", 0.4, 1.0),
+        "max_depth": trial.suggest_int("max_depth", 2, 5),
+        "max_features": trial.suggest_float("max_features", 0.4, 1.0),
         "min_samples_leaf": trial.suggest_int("min_samples_leaf", 1, 20, log=True),
     }
 
 
-_WHOLE = {"subsample": 1.0, "min_samples_leaf": 1}
-_HALF = {"subsample": 0.5, "min_samples_leaf": 1}
+_START = {"max_features": 1.0, "min_samples_leaf": 1}
 
 SPEC = ModelSpec(
     name="gb",
     title="Gradient boosting",
     family="ensemble",
     build=build,
+    # No histograms: scikit-learn's own settings of its GradientBoostingRegressor.
     paper_params={},
     search_space=search_space,
     first_trials=(
-        {"trend": "linear", "n_estimators": 100, "learning_rate": 0.1, "max_depth": 3, **_WHOLE},
-        {"trend": "quadratic", "n_estimators": 100, "learning_rate": 0.1, "max_depth": 3, **_WHOLE},
-        {"trend": "none", "n_estimators": 250, "learning_rate": 0.05, "max_depth": 5, **_HALF},
+        {"trend": "linear", "max_iter": 100, "learning_rate": 0.1, "max_depth": 3, **_START},
+        {"trend": "quadratic", "max_iter": 100, "learning_rate": 0.1, "max_depth": 3, **_START},
+        {"trend": "none", "max_iter": 250, "learning_rate": 0.05, "max_depth": 5, **_START},
     ),
     bounded=bounded_trend,
     is_cheap=True,

@@ -2,8 +2,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from sklearn.ensemble import GradientBoostingRegressor
+from optuna.trial import FixedTrial
+from sklearn.ensemble import GradientBoostingRegressor, HistGradientBoostingRegressor
 
+from softkin.core.samples import Params
 from softkin.models.gradient_boosting import SPEC
 from tests.conftest import bending_arm
 
@@ -17,6 +19,15 @@ def test_the_papers_settings_are_scikit_learns_one_ensemble_per_coordinate() -> 
     assert len(fitted.estimators_) == 3
 
 
+def test_a_searched_one_is_a_histograms_and_the_papers_is_not() -> None:
+    rows = bending_arm(60)
+    for params in (SPEC.search_space(FixedTrial(dict(first))) for first in SPEC.first_trials):
+        fitted = SPEC.build({**params, "trend": "none"}, 0, 1).fit(rows.commands, rows.positions)
+        assert all(isinstance(each, HistGradientBoostingRegressor) for each in fitted.estimators_)
+        assert all(each.n_iter_ == params["max_iter"] for each in fitted.estimators_)
+    assert "tree_method" not in SPEC.paper_params
+
+
 @pytest.mark.parametrize("trend", ["linear", "quadratic"])
 def test_a_trend_continues_where_trees_end_at_a_constant(trend: str) -> None:
     commands = np.random.default_rng(0).uniform(-1, 1, (100, 1))
@@ -28,9 +39,12 @@ def test_a_trend_continues_where_trees_end_at_a_constant(trend: str) -> None:
     np.testing.assert_array_equal(plain[0], plain[1])
 
 
-def test_the_seed_decides_which_rows_a_tree_sees() -> None:
+@pytest.mark.parametrize(
+    "params",
+    [{"n_estimators": 10, "subsample": 0.5}, {"tree_method": "hist", "max_iter": 10, "max_features": 0.5}],
+)
+def test_the_seed_decides_which_rows_or_commands_a_tree_sees(params: Params) -> None:
     rows = bending_arm(60)
-    params = {"n_estimators": 10, "subsample": 0.5}
     one, same, other = (
         SPEC.build(params, seed, 1).fit(rows.commands, rows.positions).predict(rows.commands) for seed in (0, 0, 1)
     )

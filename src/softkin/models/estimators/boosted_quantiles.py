@@ -1,4 +1,4 @@
-"""One scikit-learn gradient boosting per quantile."""
+"""One gradient boosting per quantile."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from typing import Any, Self
 
 import numpy as np
 from sklearn.base import BaseEstimator, RegressorMixin
-from sklearn.ensemble import GradientBoostingRegressor
 
 from softkin.core.samples import Array
+from softkin.models.estimators.boosted_trees import boosted_trees
 
 
 class BoostedQuantiles(RegressorMixin, BaseEstimator):  # type: ignore[misc]
@@ -23,10 +23,7 @@ class BoostedQuantiles(RegressorMixin, BaseEstimator):  # type: ignore[misc]
     def fit(self, X: Array, y: Array) -> Self:
         """Fit on commands X (n_rows, n_commands) and one coordinate y (n_rows,)."""
         self.models_ = [
-            GradientBoostingRegressor(
-                loss="quantile", alpha=quantile, **self.params, random_state=self.random_state
-            ).fit(X, y)
-            for quantile in self.quantiles
+            boosted_trees(dict(self.params), self.random_state, quantile).fit(X, y) for quantile in self.quantiles
         ]
         return self
 

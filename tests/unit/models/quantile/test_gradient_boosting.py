@@ -1,7 +1,8 @@
 from __future__ import annotations
 
 import numpy as np
-from sklearn.ensemble import GradientBoostingRegressor
+from optuna.trial import FixedTrial
+from sklearn.ensemble import GradientBoostingRegressor, HistGradientBoostingRegressor
 
 from softkin.models.estimators.boosted_quantiles import BoostedQuantiles
 from softkin.models.quantile.gradient_boosting import SPEC
@@ -17,6 +18,12 @@ def test_the_papers_settings_are_scikit_learns_one_ensemble_per_quantile() -> No
     assert len(fitted.models_) == 2
     upper = GradientBoostingRegressor(loss="quantile", alpha=0.95, random_state=3).fit(COMMANDS, TARGETS)
     np.testing.assert_array_equal(fitted.predict(COMMANDS)[:, 1], upper.predict(COMMANDS))
+
+
+def test_a_searched_one_is_a_histograms() -> None:
+    params = SPEC.search_space(FixedTrial(dict(SPEC.first_trials[0])))
+    fitted = SPEC.build(params, [0.05, 0.95], 3, 1).fit(COMMANDS, TARGETS)
+    assert all(isinstance(model, HistGradientBoostingRegressor) for model in fitted.models_)
 
 
 def test_around_a_trend_all_quantiles_keep_their_order_far_away() -> None:
