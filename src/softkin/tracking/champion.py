@@ -6,7 +6,6 @@ import hashlib
 import json
 import logging
 import tempfile
-from importlib.metadata import version as installed
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +20,7 @@ from mlflow.types import ColSpec, ParamSchema, ParamSpec, Schema
 from mlflow.utils.mlflow_tags import MLFLOW_MODEL_VERSIONS
 
 import softkin
+from softkin.core.distributions import installed
 from softkin.core.files import sha256_of
 from softkin.core.runs import nearest_level
 from softkin.core.samples import command_columns, coordinate_columns
@@ -172,7 +172,7 @@ def _log_model(
             code_paths=[str(Path(softkin.__file__).parent)],
             signature=_signature(model, level),
             input_example=pd.DataFrame(model.train.commands[:EXAMPLES], columns=commands),
-            pip_requirements=[f"{package}=={installed(package)}" for package in REQUIREMENTS],
+            pip_requirements=["==".join(installed(package)) for package in REQUIREMENTS],
             mlflow_model=Model(
                 artifact_path=logged.artifact_location,
                 model_uuid=logged.model_id,

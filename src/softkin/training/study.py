@@ -8,7 +8,6 @@ import logging
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +19,7 @@ from optuna.storages.journal import JournalFileBackend, JournalFileOpenLock, Jou
 from optuna.trial import FrozenTrial, Trial, TrialState
 
 from softkin.core.clocks import counted_as_fit
+from softkin.core.distributions import installed
 from softkin.core.errors import DataError
 from softkin.core.files import replacing
 from softkin.core.rows import sampled_rows
@@ -75,7 +75,7 @@ def fingerprint(name: str, samples: Samples, settings: TuningSettings, code: str
         "data": content_hash(samples),
         "settings": {key: value for key, value in asdict(settings).items() if key != "n_trials"},
         "code": code,
-        "versions": {package: version(package) for package in DECIDING_PACKAGES},
+        "versions": {package: installed(package)[1] for package in DECIDING_PACKAGES},
     }
     return hashlib.sha256(json.dumps(decides, sort_keys=True).encode()).hexdigest()
 

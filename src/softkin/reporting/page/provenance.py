@@ -7,13 +7,14 @@ import re
 import subprocess
 from collections.abc import Mapping
 from datetime import UTC, datetime
-from importlib.metadata import requires, version
+from importlib.metadata import requires
 from pathlib import Path
 from typing import Any
 
 import yaml
 
 from softkin import __version__
+from softkin.core.distributions import installed
 from softkin.reporting.page.grid import Cell, Column, Grid, number_columns
 from softkin.reporting.page.marks import Marks
 
@@ -59,7 +60,7 @@ def _git(folder: Path, *arguments: str) -> str | None:
 def versions() -> dict[str, str]:
     """softkin, Python and every library that softkin asks for, as installed where the report is written."""
     names = [re.split(r"[^\w.-]", line)[0] for line in requires("softkin") or [] if "extra ==" not in line]
-    libraries = {name: version(name) for name in sorted(names)}
+    libraries = dict(installed(name) for name in sorted(names))
     return {"softkin": __version__, "Python": platform.python_version(), "System": platform.system(), **libraries}
 
 
