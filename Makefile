@@ -1,4 +1,4 @@
-# make run: the whole pipeline. make test: the tests. Both install what they need into .venv first.
+# make run: the whole pipeline. make test: the tests. Each installs what it needs into .venv first.
 PYTHON ?= python3
 CORES ?= 2
 BIN := .venv/bin
@@ -28,19 +28,19 @@ new-robot: .venv/installed
 	@$(BIN)/python -m softkin.cli.new_robot "$(FILE)" $(if $(NAME),--name "$(NAME)") $(if $(WRITE),--write)
 
 # The workflow tests, which wait for one run of the workflow, beside all others.
-test: .venv/installed
+test: .venv/installed-dev
 	$(MAKE) --no-print-directory -j 2 test-workflow test-others
 
-test-workflow: .venv/installed
+test-workflow: .venv/installed-dev
 	$(BIN)/pytest -m "not slow" tests/workflow
 
-test-others: .venv/installed
+test-others: .venv/installed-dev
 	$(BIN)/pytest -m "not slow" --ignore tests/workflow
 
 test-run: .venv/installed
 	$(BIN)/snakemake --cores $(CORES) --directory results/test-run --configfile config/test.yaml
 
-lint: .venv/installed
+lint: .venv/installed-dev
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/snakefmt --check Snakefile workflow
@@ -71,7 +71,7 @@ snakemake-report: .venv/installed
 	$(BIN)/snakemake --report results/snakemake_report.html
 
 # Long statistical and fault campaigns. PyElastica, which brings a compiler, and PostgreSQL are installed for them only.
-campaigns: .venv/installed
+campaigns: .venv/installed-dev
 	$(BIN)/pip install --quiet --disable-pip-version-check pyelastica==1.0.0 pgserver==0.1.4 psycopg2-binary==2.9.13
 	$(BIN)/pytest -m slow
 
@@ -127,13 +127,16 @@ results-page: .venv/installed
 	$(BIN)/python -m tools.gallery
 
 # The picture of the MLflow UI in the README, docs/mlflow_ui.png, from the store of a finished run.
-ui-screenshot: .venv/installed
+ui-screenshot: .venv/installed-dev
 	$(BIN)/python -m tools.ui_screenshot
 
 # Pin every dependency anew.
-environment: .venv/installed
-	$(BIN)/pip-compile --quiet --extra dev --allow-unsafe --strip-extras --no-header --no-annotate \
-	  --no-emit-index-url --no-emit-find-links --no-emit-trusted-host --output-file environment.txt pyproject.toml
+COMPILE := pip-compile --quiet --allow-unsafe --strip-extras --no-header --no-annotate \
+  --no-emit-index-url --no-emit-find-links --no-emit-trusted-host --extra install
+
+environment: .venv/installed-dev
+	$(BIN)/$(COMPILE) --extra dev --output-file environment-dev.txt pyproject.toml
+	$(BIN)/$(COMPILE) --constraint environment-dev.txt --output-file environment.txt pyproject.toml
 
 clean:
 	rm -rf results .snakemake
@@ -144,4 +147,10 @@ clean:
 	$(BIN)/pip install --quiet --disable-pip-version-check -r environment.txt
 	$(BIN)/pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
 	$(BIN)/python -m compileall -q .venv/lib src > /dev/null || true
+	touch $@
+
+# What tests and checks need besides, 300 MB.
+.venv/installed-dev: .venv/installed environment-dev.txt
+	$(BIN)/pip install --quiet --disable-pip-version-check -r environment-dev.txt
+	$(BIN)/python -m compileall -q .venv/lib > /dev/null || true
 	touch $@
