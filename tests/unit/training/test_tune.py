@@ -67,7 +67,7 @@ def tuned(samples: Samples, model: str, folder: Path, n_trials: int = 8) -> dict
     table = folder / "table.parquet"
     write_table(to_table(dict.fromkeys(("train", "validation", "test", "extrapolation"), samples)), table)
     presets = (TUNED, OUTER)
-    files = {p: PresetFiles(folder / f"{p}.db", folder / f"{p}.json", folder / f"{p}.csv") for p in presets}
+    files = {p: PresetFiles(folder / f"{p}.journal", folder / f"{p}.json", folder / f"{p}.csv") for p in presets}
     tune_table(
         table,
         spec=MODELS[model],

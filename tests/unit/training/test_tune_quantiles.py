@@ -53,7 +53,7 @@ def test_only_train_is_tuned_on(name: str, table: Path, garbage_table: Path, tmp
             path,
             spec=QUANTILE_MODELS[name],
             settings=SETTINGS,
-            file=StudyFile(folder / "study.db", "code"),
+            file=StudyFile(folder / "study.journal", "code"),
             threads=1,
             parameters=folder / "parameters.json",
             trials=folder / "trials.csv",

@@ -6,7 +6,7 @@ from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
+from scipy import special, stats
 
 from softkin.core.samples import Array
 
@@ -59,9 +59,14 @@ def coverage_p_value(n_covered: int, n_rows: int, n_calibration: int, rank: int)
 
 @cache
 def clopper_pearson(n_covered: int, n_rows: int, band: float = 0.95) -> tuple[float, float]:
-    """Exact binomial confidence interval of a coverage (Clopper and Pearson 1934)."""
-    interval = stats.binomtest(n_covered, n_rows).proportion_ci(band, method="exact")
-    return float(interval.low), float(interval.high)
+    """Exact binomial confidence interval of a coverage (Clopper and Pearson 1934).
+
+    Its ends are quantiles of beta distributions; scipy's binomtest searches for them, a thousand times slower.
+    """
+    tail, missed = (1.0 - band) / 2, n_rows - n_covered
+    low = special.betaincinv(n_covered, missed + 1, tail) if n_covered else 0.0
+    high = special.betaincinv(n_covered + 1, missed, 1.0 - tail) if missed else 1.0
+    return float(low), float(high)
 
 
 def holm(p_values: Array) -> Array:
