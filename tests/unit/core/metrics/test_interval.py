@@ -80,6 +80,13 @@ def test_p_values_are_small_where_coverage_is_wrong() -> None:
     assert coverage_p_value(395, 395, 395, 357) < 1e-4
 
 
+@pytest.mark.parametrize("n_rows", [1, 7, 395, 3160])
+def test_clopper_pearson_is_scipys(n_rows: int) -> None:
+    for n_covered in {0, 1, n_rows // 3, n_rows - 1, n_rows}:
+        exact = stats.binomtest(n_covered, n_rows).proportion_ci(0.95, method="exact")
+        assert clopper_pearson(n_covered, n_rows) == pytest.approx((exact.low, exact.high), rel=1e-9, abs=1e-15)
+
+
 def test_clopper_pearson_holds_the_truth_often_enough() -> None:
     law = stats.binom(40, 0.35)
     probability = sum(law.pmf(k) for k in range(41) if clopper_pearson(k, 40)[0] <= 0.35 <= clopper_pearson(k, 40)[1])
