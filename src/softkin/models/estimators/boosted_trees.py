@@ -22,7 +22,7 @@ def boosted_trees(params: Params, seed: int, quantile: float | None = None) -> A
     """
     rest = dict(params)
     if rest.pop(TREE_METHOD, None) == HISTOGRAM:
-        loss = {} if quantile is None else {"loss": QuantileLoss(quantile=quantile)}
+        loss: Params = {} if quantile is None else {"loss": QuantileLoss(quantile=quantile)}
         fixed = {"early_stopping": False, "max_leaf_nodes": None}
         return HistGradientBoostingRegressor(**loss, **fixed, **rest, random_state=seed)
     loss = {} if quantile is None else {"loss": "quantile", "alpha": quantile}
@@ -32,7 +32,7 @@ def boosted_trees(params: Params, seed: int, quantile: float | None = None) -> A
 class QuantileLoss(PinballLoss):  # type: ignore[misc]
     """scikit-learn's pinball loss, equal to the bit; it takes the quantile of a leaf by one partition.
 
-    numpy.percentile, with its checks, took more than half of a fit: a call per leaf.
+    numpy.percentile, with its checks, took nearly half of a fit: a call per leaf.
     """
 
     def fit_intercept_only(self, y_true: Array, sample_weight: Array | None = None) -> Any:
