@@ -8,6 +8,7 @@ import subprocess
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 import pytest
@@ -73,7 +74,7 @@ def test_a_cluster_and_a_server_give_what_one_machine_gives(house: House, node: 
         environment = house.environment() | {"MLFLOW_TRACKING_URI": server.uri}
         command = house.command(*OPTIONS, cores=None, work=tmp_path / "work")
         output = (tmp_path / "output.txt").open("w+")
-        start = {"env": environment, "cwd": house.root, "stdout": output, "stderr": output, "text": True}
+        start: dict[str, Any] = {"env": environment, "cwd": house.root, "stdout": output, "stderr": output}
         with output, subprocess.Popen(command, **start) as run:
             wait_for(running_fits, run)
             subprocess.run(["scancel", running_fits()[0]], check=True)
