@@ -7,7 +7,7 @@ export MLFLOW_DISABLE_TELEMETRY := true
 export OMP_NUM_THREADS := 1
 
 .PHONY: run demo unlock new-robot test test-workflow test-others test-run lint ui store report gallery numbers results-page
-.PHONY: snakemake-report campaigns coverage standins timings benchmark benchmark-large benchmark-pruning benchmark-shells
+.PHONY: snakemake-report campaigns campaign-slurm coverage standins timings benchmark benchmark-large benchmark-pruning benchmark-shells
 .PHONY: benchmark-figures benchmark-commands benchmark-many-robots
 .PHONY: environment clean ui-screenshot
 
@@ -74,6 +74,11 @@ snakemake-report: .venv/installed
 campaigns: .venv/installed-dev
 	$(BIN)/pip install --quiet --disable-pip-version-check pyelastica==1.0.0 pgserver==0.1.4 psycopg2-binary==2.9.13
 	$(BIN)/pytest -m slow
+
+# The test configuration on a real SLURM of one node, MLflow on PostgreSQL: as root on Debian, which has the packages.
+campaign-slurm: .venv/installed-dev
+	$(BIN)/pip install --quiet --disable-pip-version-check snakemake-executor-plugin-slurm==2.8.0 pgserver==0.1.4 psycopg2-binary==2.9.13
+	$(BIN)/pytest -m slow tests/workflow/test_slurm.py
 
 # How well the default run uses the machine: fit CPU against wall time, and the ten slowest jobs.
 benchmark: .venv/installed
