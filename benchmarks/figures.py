@@ -68,7 +68,7 @@ def _write_intervals(folder: Path, subsets: dict[str, Samples]) -> None:
     import numpy as np
     import pandas as pd
 
-    from softkin.core.bounds import bounds_frame
+    from softkin.core.bounds import ROW_GROUP, bounds_frame
     from softkin.uncertainty.intervals import INTERVAL_METHODS
 
     rng = np.random.default_rng(2)
@@ -83,7 +83,7 @@ def _write_intervals(folder: Path, subsets: dict[str, Samples]) -> None:
                 frame.insert(1, "preset", preset)
                 frames.append(frame)
     first, *others = (folder / f"{method}.parquet" for method in INTERVAL_METHODS)
-    pd.concat(frames, ignore_index=True).to_parquet(first)
+    pd.concat(frames, ignore_index=True).to_parquet(first, row_group_size=ROW_GROUP)
     for other in others:
         other.hardlink_to(first)
 

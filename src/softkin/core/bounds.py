@@ -9,6 +9,10 @@ import pandas as pd
 
 from softkin.core.samples import Array, coordinate_columns
 
+#: Rows of a row group of a file of intervals. Runs follow each other in it, so that who reads one run finds it in a few
+#: groups, by their statistics, and holds no more than these.
+ROW_GROUP = 2**17
+
 
 def bounds_frame(bounds: Array, subset: str, confidence_level: float) -> pd.DataFrame:
     """Bounds (n_rows, n_coordinates, 2) in mm as a table: subset, confidence_level, lower_m1_x, ..., upper_m1_x, ..."""

@@ -10,7 +10,7 @@ from typing import Any
 
 import pandas as pd
 
-from softkin.core.bounds import bounds_frame
+from softkin.core.bounds import ROW_GROUP, bounds_frame
 from softkin.core.files import replacing
 from softkin.core.runs import Run
 from softkin.uncertainty.calibration_data import ShellCalibration
@@ -55,5 +55,6 @@ def calibrate(
                     frame.insert(1, "preset", run.preset)
                     frames.append(frame)
         with replacing(intervals[name]) as temporary:
-            (pd.concat(frames, ignore_index=True) if frames else pd.DataFrame(columns=KEY)).to_parquet(temporary)
+            table = pd.concat(frames, ignore_index=True) if frames else pd.DataFrame(columns=KEY)
+            table.to_parquet(temporary, row_group_size=ROW_GROUP)
         logger.info("%d of %d methods: %s around %d models", place + 1, len(methods), method.title, n_models)
