@@ -201,7 +201,7 @@ def eating_its_parameters(params: Params, seed: int, _: int) -> Any:
         (fits_a_robot_of_one_moving_coordinate, "lr", built(predictions=wrong_if_flat)),
         (repeats_itself_under_a_seed, "lr", built(predictions=noisy)),
         (repeats_itself_under_a_seed, "lr", built(predictions=noisy_by_the_global_state)),
-        (repeats_itself_under_a_seed, "lr", {"build": eating_its_parameters}),
+        (repeats_itself_under_a_seed, "lr", {"build": eating_its_parameters, "paper_params": {}}),
         (is_the_same_when_stored, "lr", built(predictions=noisy)),
         (refuses_targets_that_are_no_numbers, "lr", built(targets=np.nan_to_num)),
         (has_a_spread_in_mm, "gp", {"spread": lambda *of: np.zeros((len(of[-1]), 6))}),

@@ -44,15 +44,15 @@ def on_a_terminal(house: House, *options: str) -> str:
 
 def test_a_terminal_shows_one_quiet_screen(new_house: House) -> None:
     shown = on_a_terminal(new_house, TARGET)
-    assert re.search("softkin test · 0 of 4 jobs · 0 s used · (roughly .+|under a minute) left", shown)
+    assert re.search("softkin test · 0 of 3 jobs · 0 s used · (roughly .+|under a minute) left", shown)
     assert "\033[J" in shown
-    running = [line for line in shown.splitlines() if line.startswith("  tune  finger  gb")]
+    running = [line for line in shown.splitlines() if line.startswith("  fit model  finger  gb")]
     assert any("trial" in line and "of 4" in line for line in running)
     assert "localrule" not in shown
     assert "Finished jobid" not in shown
-    assert "tune finger gb: 4 of 4 trials" not in shown  # a job writes to its log alone
-    assert "4 of 4 trials" in (new_house.work / "results" / "logs" / "tune" / "finger" / "gb.log").read_text()
-    assert shown.split("\033[J")[-1].startswith("softkin test: 4 of 4 jobs in ")
+    assert "fit finger gb: 4 of 4 trials" not in shown  # a job writes to its log alone
+    assert "4 of 4 trials" in (new_house.work / "results" / "logs" / "fit_model" / "finger" / "gb.log").read_text()
+    assert shown.split("\033[J")[-1].startswith("softkin test: 3 of 3 jobs in ")
 
 
 def test_a_pipe_gets_plain_lines_and_the_next_run_an_estimate(new_house: House) -> None:
@@ -61,14 +61,14 @@ def test_a_pipe_gets_plain_lines_and_the_next_run_an_estimate(new_house: House) 
     assert "\033" not in done.stdout + done.stderr
     lines = done.stderr.splitlines()
     assert [line.split("] ")[1].split(":")[0] for line in lines if line.startswith("[") and " jobs · " in line] == [
-        *("retrieve finger", "prepare finger", "tune finger gb", "fit tuned finger gb")
+        *("retrieve finger", "prepare finger", "fit model finger gb")
     ]
-    assert "tune finger gb: 4 of 4 trials, best" in done.stderr
+    assert "fit finger gb: 4 of 4 trials, best" in done.stderr
     assert "localrule" not in done.stderr
-    benchmark = new_house.work / "results" / "benchmarks" / "fit_tuned" / "finger" / "gb.tsv"
+    benchmark = new_house.work / "results" / "benchmarks" / "fit_model" / "finger" / "gb.tsv"
     benchmark.write_text("s\th:m:s\n600.0\t0:10:00\n")
-    again = new_house.snakemake(TARGET, "--forcerun", "tune")
-    ended = [line for line in again.stderr.splitlines() if "] tune finger gb: " in line]
+    again = new_house.snakemake(TARGET, "--forcerun", "prepare")
+    ended = [line for line in again.stderr.splitlines() if "] prepare finger: " in line]
     assert len(ended) == 1
     assert re.match(r"\[\d\d:\d\d:\d\d · 1 of 2 jobs · ", ended[0])
     minutes = re.search(r" · about (\d+) min left\] ", ended[0])

@@ -98,7 +98,8 @@ def test_a_last_record_torn_at_any_byte_heals(
     path.write_bytes(whole[0])
     caplog.clear()
     assert_same(run(path), whole[1])
-    assert (path.read_bytes(), caplog.text) == (whole[0], "")
+    warned = [record for record in caplog.records if record.levelname == "WARNING"]
+    assert (path.read_bytes(), warned) == (whole[0], [])
 
 
 @pytest.mark.parametrize("torn", [b"\0" * 80, b"\0" * 80 + b"\n", b"\xff\xfe\n", b'{"op_code":4\n', b"7\n", b"{}\n"])
