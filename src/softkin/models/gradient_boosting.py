@@ -34,7 +34,7 @@ def search_space(trial: BaseTrial) -> Params:
     }
 
 
-_START = {"max_iter": 100, "learning_rate": 0.1, "max_depth": 3, "max_features": 1.0, "min_samples_leaf": 1}
+_START = {"max_features": 1.0, "min_samples_leaf": 1}
 
 SPEC = ModelSpec(
     name="gb",
@@ -44,7 +44,11 @@ SPEC = ModelSpec(
     # No histograms: scikit-learn's own settings of its GradientBoostingRegressor.
     paper_params={},
     search_space=search_space,
-    first_trials=tuple({"trend": trend, **_START} for trend in TRENDS),
+    first_trials=(
+        {"trend": "linear", "max_iter": 100, "learning_rate": 0.1, "max_depth": 3, **_START},
+        {"trend": "quadratic", "max_iter": 100, "learning_rate": 0.1, "max_depth": 3, **_START},
+        {"trend": "none", "max_iter": 250, "learning_rate": 0.05, "max_depth": 5, **_START},
+    ),
     bounded=bounded_trend,
     is_cheap=True,
 )
