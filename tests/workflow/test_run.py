@@ -262,8 +262,3 @@ def test_bad_data_stop_with_a_message_and_lose_nothing(house: House, tmp_path: P
         assert part in output
     assert not (tmp_path / "results" / "finger" / "raw").exists()
     assert (tmp_path / "results" / "elastica_2023_09" / "mlflow_runs.json").exists()
-
-
-def test_snakemake_finds_nothing_to_lint(house: House) -> None:
-    done = house.snakemake("--lint")
-    assert done.returncode == 0, done.stdout + done.stderr
