@@ -14,7 +14,7 @@ import pandas as pd
 import pytest
 from mlflow import MlflowClient
 
-from softkin.tracking.store import KEY
+from softkin.tracking.records import KEY
 from tests.workflow.conftest import House
 from tests.workflow.mlflow_server import postgresql, serving
 

@@ -18,7 +18,8 @@ import pytest
 from mlflow import MlflowClient
 
 from softkin.core.files import sha256_of
-from softkin.tracking.store import KEY, PARENT
+from softkin.tracking.records import KEY
+from softkin.tracking.store import PARENT
 from tests.conftest import HOUSE
 from tests.workflow.conftest import House
 from tests.workflow.mlflow_server import postgresql, serving, sqlite

@@ -3,7 +3,7 @@
 from softkin.core.files import write_json
 from softkin.core.job import job
 from softkin.core.runs import Run
-from softkin.tracking import Campaign, log_champion, log_dataset, log_intervals
+from softkin.tracking import Campaign, locked, log_champion, log_dataset, log_intervals
 
 files, params = snakemake.input, snakemake.params
 runs = {
@@ -18,18 +18,20 @@ with job(snakemake.log[0], f"track {snakemake.wildcards.dataset}"):
         name=params.campaign,
         seed=params.seed,
         tracking_uri=params.tracking_uri,
-        artifacts="mlartifacts",
         caution=params.caution,
     )
-    of_dataset = {"description": files.description, "data_card": files.data_card}
-    logged = log_dataset(campaign, **of_dataset, point=files.point, figures=files.figures, runs=runs)
-    n_intervals = log_intervals(campaign, **of_dataset, metrics=files.intervals, figures=files.figures, parents=logged)
-    version = log_champion(
-        campaign,
-        **of_dataset,
-        point=files.point,
-        intervals=files.intervals,
-        calibrated_model=files.calibrated_model,
-        parent=logged["campaign"],
-    )
-    write_json(snakemake.output[0], {"runs": logged, "interval_runs": n_intervals, "champion": version})
+    with locked(params.tracking_uri, snakemake.wildcards.dataset):
+        of_dataset = {"description": files.description, "data_card": files.data_card}
+        logged = log_dataset(campaign, **of_dataset, point=files.point, figures=files.figures, runs=runs)
+        n_intervals = log_intervals(
+            campaign, **of_dataset, metrics=files.intervals, figures=files.figures, parents=logged
+        )
+        version = log_champion(
+            campaign,
+            **of_dataset,
+            point=files.point,
+            intervals=files.intervals,
+            calibrated_model=files.calibrated_model,
+            parent=logged["campaign"],
+        )
+        write_json(snakemake.output[0], {"runs": logged, "interval_runs": n_intervals, "champion": version})

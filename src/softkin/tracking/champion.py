@@ -1,4 +1,8 @@
-"""Register the calibrated model of a dataset in MLflow's registry, under the alias `champion`."""
+"""Register the calibrated model of a dataset in MLflow's registry, under the alias `candidate`.
+
+The first one of a dataset is its champion at once. Later ones become it by the verdict of a campaign, see `promotion`.
+The runs of all datasets' calibrated models are in one experiment, where they stand side by side.
+"""
 
 from __future__ import annotations
 
@@ -26,25 +30,18 @@ from softkin.core.runs import nearest_level
 from softkin.core.samples import command_columns, coordinate_columns
 from softkin.tracking import served_model
 from softkin.tracking.model_card import model_card
-from softkin.tracking.store import (
-    CONTENT,
-    NOTE,
-    PARENT,
-    Campaign,
-    Record,
-    all_pages,
-    client_of,
-    common_tags,
-    experiment_of,
-    put,
-    read_description,
-)
+from softkin.tracking.promotion import nominate
+from softkin.tracking.records import CONTENT, Record, all_pages, put, sweep
+from softkin.tracking.saved_view import CHAMPIONS_TAG, champions_view
+from softkin.tracking.store import NOTE, Campaign, client_of, common_tags, experiment_of, read_description
 from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.intervals.spec import AUTO
 
 logger = logging.getLogger("softkin")
 
-ALIAS = "champion"
+KIND = "champion"
+#: The experiment that holds a run for the calibrated model of each dataset.
+EXPERIMENT = "champions"
 PARTS = ("y_pred", "lower", "upper")
 #: The packages that a calibrated model needs where it is loaded; softkin's own code is logged with it.
 REQUIREMENTS = ("mlflow", "numpy", "pandas", "scipy", "scikit-learn", "xgboost", "mapie", "crepes", "joblib", "pyarrow")
@@ -62,7 +59,7 @@ def log_champion(
     calibrated_model: str | Path,
     parent: str,
 ) -> str:
-    """Log the run of the calibrated model, register it, and give its version the alias; return the version.
+    """Log the run of the calibrated model, register it, and give its version the alias `candidate`; return the version.
 
     The version that is there is kept while model and card are the same; versions of other content stay in the registry,
     without the alias.
@@ -74,7 +71,7 @@ def log_champion(
         point: point_metrics.csv.
         intervals: interval_metrics.csv.
         calibrated_model: the calibrated model (joblib).
-        parent: id of the campaign's run.
+        parent: id of the run that groups the runs of the dataset.
     """
     client = client_of(campaign.tracking_uri)
     described = read_description(description, data_card)
@@ -92,13 +89,13 @@ def log_champion(
         caution=campaign.caution,
     )  # fmt: skip
     record = Record(
-        key=f"{campaign.name}/{described['dataset']}/{ALIAS}",
-        name=f"{described['dataset']} · {ALIAS}",
+        key=f"{campaign.name}/{described['dataset']}/{KIND}",
+        name=f"{described['dataset']} · {model.spec.name} · {model.preset}",
         content={"model": sha256_of([calibrated_model]), "card": card},
         tags={
-            PARENT: parent,
             **common_tags(campaign, described),
-            "kind": ALIAS,
+            "kind": KIND,
+            "runs_of_its_dataset": parent,
             **key,
             "interval_method": model.method.name,
             NOTE: card,
@@ -108,7 +105,11 @@ def log_champion(
         texts={"model_card.md": card},
         started=campaign.started,
     )
-    run_id = put(client, experiment_of(client, described["dataset"], campaign.artifacts), record)
+    experiment = experiment_of(client, EXPERIMENT)
+    client.set_experiment_tag(experiment, NOTE, "The calibrated models of all datasets, a current run of each.")
+    client.set_experiment_tag(experiment, CHAMPIONS_TAG, champions_view())
+    sweep(client, experiment, campaign=campaign.name, dataset=described["dataset"])
+    run_id = put(client, experiment, record)
     return _version(client, name, run_id, record, Path(calibrated_model), model, level)
 
 
@@ -121,7 +122,11 @@ def _rows(table: pd.DataFrame, **wanted: str) -> pd.DataFrame:
 
 def _metrics(scores: pd.DataFrame, intervals: pd.DataFrame, level: float) -> dict[str, float]:
     """The metrics of the run, named as in the runs of models and of intervals."""
-    values = {f"{subset}/euclidean_mean_mm": float(value) for subset, value in scores["euclidean_mean_mm"].items()}
+    values = {
+        f"{subset}/{name}": float(value)
+        for name in ("euclidean_mean_mm", "rmse_mm")
+        for subset, value in scores[name].items()
+    }
     for name in ("coverage", "mean_width_mm", "winkler_mm"):
         values |= {f"{subset}/{name}_{100 * level:g}": float(value) for subset, value in intervals[name].items()}
     return values
@@ -130,14 +135,14 @@ def _metrics(scores: pd.DataFrame, intervals: pd.DataFrame, level: float) -> dic
 def _version(
     client: MlflowClient, name: str, run_id: str, record: Record, file: Path, model: CalibratedModel, level: float
 ) -> str:
-    """The version with this content, registered where there is none; it gets the alias."""
+    """The version with this content, registered where there is none; it is the candidate."""
     content = hashlib.sha256(json.dumps([record.key, record.content], sort_keys=True).encode()).hexdigest()
     versions = all_pages(client.search_model_versions, f"name = '{name}'")
     same = [version for version in versions if version.tags.get(CONTENT) == content]
     if same:
         version = str(same[0].version)
     else:
-        tags = {key: value for key, value in record.tags.items() if key not in (NOTE, PARENT)}
+        tags = {key: value for key, value in record.tags.items() if key not in (NOTE, "runs_of_its_dataset")}
         logged = _log_model(client, run_id, name, file, model, level, tags)
         try:
             client.create_registered_model(name, description=f"The calibrated forward kinematics of {model.dataset}.")
@@ -152,8 +157,7 @@ def _version(
         # The UI links the logged model to its version by this tag.
         client.set_logged_model_tags(logged, {MLFLOW_MODEL_VERSIONS: json.dumps([{"name": name, "version": version}])})
         logger.info("registered %s, version %s", name, version)
-    if str(client.get_registered_model(name).aliases.get(ALIAS)) != version:
-        client.set_registered_model_alias(name, ALIAS, version)
+    nominate(client, name, version)
     return version
 
 

@@ -10,20 +10,16 @@ import pandas as pd
 
 from softkin.core.samples import TEST
 from softkin.tracking.figure_index import content_of, shown_in
+from softkin.tracking.records import CURRENT, YES, Record, find, put, retire
 from softkin.tracking.store import (
-    KEY,
     NOTE,
     PARENT,
     Campaign,
-    Record,
     caution_content,
     caution_note,
     client_of,
     common_tags,
-    delete,
     experiment_of,
-    find,
-    put,
     read_description,
 )
 
@@ -59,9 +55,9 @@ def log_intervals(
     client = client_of(campaign.tracking_uri)
     described = read_description(description, data_card)
     tags = common_tags(campaign, described)
-    experiment = experiment_of(client, described["dataset"], campaign.artifacts)
+    experiment = experiment_of(client, described["dataset"])
     shown = shown_in(figures)
-    keys, there = set(), find(client, experiment, campaign=campaign.name, kind="intervals")
+    keys, there = set(), find(client, experiment, campaign=campaign.name, kind="intervals", **{CURRENT: YES})
     table = pd.read_csv(metrics)
     # All shapes of joint region around a model share a run: each has one row per subset and level.
     marginal = set(table.loc[table["coordinate"] == "mean_informative", "interval_method"])
@@ -72,7 +68,7 @@ def log_intervals(
         record = _record(campaign, tags, key, rows, parent, shown.get(key, []))
         put(client, experiment, record, there)
         keys.add(record.key)
-    delete(client, [run for run in there if run.data.tags[KEY] not in keys])
+    retire(client, there, keys)
     return len(keys)
 
 

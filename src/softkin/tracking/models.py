@@ -17,21 +17,17 @@ from softkin.core.files import read_json, sha256_of
 from softkin.core.runs import Run
 from softkin.core.samples import EXTRAPOLATION, TEST
 from softkin.tracking.figure_index import content_of, shown_in
+from softkin.tracking.records import CURRENT, YES, Record, find, put, retire, sweep, update
 from softkin.tracking.saved_view import NAME, TAG, saved_view
 from softkin.tracking.store import (
-    KEY,
     NOTE,
     PARENT,
     Campaign,
-    Record,
     caution_content,
     caution_note,
     client_of,
     common_tags,
-    delete,
     experiment_of,
-    find,
-    put,
     read_description,
 )
 
@@ -75,15 +71,16 @@ def log_dataset(
     client = client_of(campaign.tracking_uri)
     described = read_description(description, data_card)
     scores = pd.read_csv(point)
-    experiment = experiment_of(client, described["dataset"], campaign.artifacts)
+    experiment = experiment_of(client, described["dataset"])
     note = f"**{described['title']}**, {described['origin']}. *Views*, at the top right, has *{NAME}*."
     note += _findings_note(described) + caution_note(campaign)
     for tag, value in {NOTE: note, "origin": described["origin"], TAG: saved_view()}.items():
         client.set_experiment_tag(experiment, tag, value)
     shown = shown_in(figures)
-    parent = put(client, experiment, _campaign_record(campaign, described, shown.get(("", "", ""), [])))
+    sweep(client, experiment, campaign=campaign.name)
+    parent = update(client, experiment, _campaign_record(campaign, described, shown.get(("", "", ""), [])))
     logged, keys = {"campaign": parent}, set()
-    there = find(client, experiment, campaign=campaign.name, kind="model")
+    there = find(client, experiment, campaign=campaign.name, kind="model", **{CURRENT: YES})
     for place, (run, files) in enumerate(runs.items(), start=1):
         model, preset = run
         of_run = scores[(scores["model"] == model) & (scores["preset"] == preset)]
@@ -91,7 +88,7 @@ def log_dataset(
         record = _record(campaign, described, model_run, parent, place)
         logged[f"{model}/{preset}"] = put(client, experiment, record, there)
         keys.add(record.key)
-    delete(client, [child for child in there if child.data.tags[KEY] not in keys])
+    retire(client, there, keys)
     return logged
 
 

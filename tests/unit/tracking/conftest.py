@@ -40,7 +40,7 @@ def campaign(tmp_path: Path, empty_store: Path) -> Campaign:
     path = tmp_path / "mlflow.db"
     with closing(sqlite3.connect(empty_store)) as empty, closing(sqlite3.connect(path)) as copy:
         empty.backup(copy)
-    return Campaign("nightly", seed=5, tracking_uri=f"sqlite:///{path}", artifacts=str(tmp_path / "artifacts"))
+    return Campaign("nightly", seed=5, tracking_uri=f"sqlite:///{path}")
 
 
 @pytest.fixture
@@ -111,7 +111,9 @@ def client_of_store(campaign: Campaign) -> Any:
     return MlflowClient(campaign.tracking_uri)
 
 
-def snapshot(campaign: Campaign) -> dict[str, Any]:
+def snapshot(campaign: Campaign, *, experiment: str = "finger", all_of_them: bool = False) -> dict[str, Any]:
+    """Current runs of an experiment by id, or all of them."""
     client = MlflowClient(campaign.tracking_uri)
-    experiments = [e.experiment_id for e in client.search_experiments() if e.name == "finger"]
-    return {run.info.run_id: run.to_dictionary() for run in client.search_runs(experiments, max_results=1000)}
+    experiments = [e.experiment_id for e in client.search_experiments() if e.name == experiment]
+    runs = client.search_runs(experiments, "" if all_of_them else "tags.current = 'true'", max_results=1000)
+    return {run.info.run_id: run.to_dictionary() for run in runs}

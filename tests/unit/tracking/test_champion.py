@@ -18,8 +18,7 @@ from mlflow.exceptions import MlflowException
 
 from softkin.core.distributions import installed
 from softkin.core.files import write_json
-from softkin.tracking import Campaign, log_champion, store
-from softkin.tracking.store import PARENT
+from softkin.tracking import Campaign, log_champion, records
 from tests.conftest import bending_arm
 from tests.unit.tracking.conftest import client_of_store
 from tests.unit.tracking.robots import DESCRIPTION, champion_files, interval_metrics, robot, with_shells
@@ -39,8 +38,8 @@ def files(tmp_path: Path) -> dict[str, Any]:
     return champion_files(tmp_path)
 
 
-def alias(client: Any) -> str:
-    return str(client.get_model_version_by_alias(NAME, "champion").version)
+def alias(client: Any, name: str = "candidate") -> str:
+    return str(client.get_model_version_by_alias(NAME, name).version)
 
 
 def test_the_champion_predicts_what_the_calibrated_model_predicts(campaign: Campaign, files: dict[str, Any]) -> None:
@@ -94,7 +93,7 @@ def test_the_card_is_that_of_version_and_run(campaign: Campaign, files: dict[str
     assert Path(card).read_text() == version.description
     write_json(files["description"], DESCRIPTION | {"origin": "stand-in"})
     log_champion(campaign, **files)
-    assert "STAND-IN" in client.get_model_version_by_alias(NAME, "champion").description
+    assert "STAND-IN" in client.get_model_version_by_alias(NAME, "candidate").description
 
 
 def test_the_same_content_is_no_new_version(campaign: Campaign, files: dict[str, Any]) -> None:
@@ -102,7 +101,7 @@ def test_the_same_content_is_no_new_version(campaign: Campaign, files: dict[str,
     assert log_champion(campaign, **files | {"parent": "another"}) == "1"
     client = client_of_store(campaign)
     (version,) = client.search_model_versions(f"name = '{NAME}'")
-    assert client.get_run(version.run_id).data.tags[PARENT] == "another"
+    assert client.get_run(version.run_id).data.tags["runs_of_its_dataset"] == "the-campaign"
 
 
 @pytest.mark.parametrize(
@@ -113,7 +112,7 @@ def test_the_same_content_is_no_new_version(campaign: Campaign, files: dict[str,
     ],
     ids=["another model", "another card"],
 )
-def test_other_content_is_a_version_that_gets_the_alias(
+def test_other_content_is_a_candidate_and_the_first_stays_champion(
     campaign: Campaign, files: dict[str, Any], change: Callable[[dict[str, Any]], object]
 ) -> None:
     log_champion(campaign, **files)
@@ -122,7 +121,8 @@ def test_other_content_is_a_version_that_gets_the_alias(
     change(files)
     assert log_champion(campaign, **files) == "2"
     client = client_of_store(campaign)
-    assert alias(client) == "2"
+    assert (alias(client), alias(client, "champion")) == ("2", "1")
+    assert client.get_model_version(NAME, "1").tags["promoted_because"] == "it is the first version"
     named = pd.DataFrame(commands, columns=["u1", "u2"])
     old, new = (mlflow.pyfunc.load_model(f"models:/{NAME}/{version}") for version in (1, 2))
     np.testing.assert_array_equal(old.predict(named).filter(like="y_pred"), before)
@@ -134,7 +134,7 @@ def test_a_result_that_returns_gets_its_version_back(
     campaign: Campaign, files: dict[str, Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Wherever it stands among the pages of versions."""
-    monkeypatch.setattr(store, "PAGE", 1)
+    monkeypatch.setattr(records, "PAGE", 1)
     log_champion(campaign, **files)
     assert log_champion(replace(campaign, name="weekly"), **files) == "2"
     assert log_champion(campaign, **files) == "1"

@@ -67,7 +67,7 @@ def test_all_shapes_of_region_share_a_run(
     assert "joint_box covers 91.0%" in regions["tags"]["mlflow.note.content"]
 
 
-def test_interval_runs_follow_a_replaced_model_and_leave_with_their_method(
+def test_interval_runs_follow_a_superseded_model_and_retire_with_their_method(
     campaign: Campaign, results: dict[str, Any], interval_files: dict[str, Path]
 ) -> None:
     first = log_dataset(campaign, **results)

@@ -5,17 +5,22 @@ from __future__ import annotations
 import base64
 import json
 import zlib
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
+import pytest
+from mlflow import MlflowClient
 
 from softkin.core.files import read_json
 from softkin.core.samples import SUBSETS
 from softkin.tracking import Campaign, log_dataset, log_intervals
+from softkin.tracking.artifacts import folder_of
+from softkin.tracking.records import KEY
 from softkin.tracking.saved_view import TAG
-from softkin.tracking.store import CONTENT, KEY, NOTE, PARENT
+from softkin.tracking.store import NOTE, PARENT
 from tests.unit.tracking.conftest import client_of_store, snapshot
 
 
@@ -56,13 +61,15 @@ def test_a_run_shows_the_figures_that_show_it(campaign: Campaign, results: dict[
     assert [name for name in logged if again[name] != logged[name]] == ["svr/tuned"]
 
 
-def test_children_follow_a_replaced_campaign_run(campaign: Campaign, results: dict[str, Any]) -> None:
+def test_the_run_that_groups_them_is_written_into(campaign: Campaign, results: dict[str, Any]) -> None:
     first = log_dataset(campaign, **results)
     (results["figures"] / "distribution.png").write_text("drawn anew")
-    second = log_dataset(campaign, **results)
-    assert [name for name in first if second[name] != first[name]] == ["campaign"]
+    assert log_dataset(campaign, **results) == first
+    client = client_of_store(campaign)
+    folder = folder_of(client.get_run(first["campaign"]).info.artifact_uri)
+    assert (folder / "figures" / "distribution.png").read_text() == "drawn anew"
     children = [run["data"]["tags"].get(PARENT) for run in snapshot(campaign).values()]
-    assert sorted(children, key=str) == sorted([None, second["campaign"], second["campaign"]], key=str)
+    assert sorted(children, key=str) == sorted([None, first["campaign"], first["campaign"]], key=str)
 
 
 def test_the_newest_runs_are_the_campaign_then_its_models_then_their_intervals(
@@ -98,7 +105,7 @@ def test_logging_again_changes_nothing(campaign: Campaign, results: dict[str, An
     assert len(before) == 3
 
 
-def test_a_caution_stands_in_each_description_and_replaces_the_runs_without(
+def test_a_caution_stands_in_each_description_and_supersedes_the_runs_without(
     campaign: Campaign, results: dict[str, Any], interval_files: dict[str, Path]
 ) -> None:
     careful = replace(campaign, caution="Few trials.")
@@ -109,7 +116,7 @@ def test_a_caution_stands_in_each_description_and_replaces_the_runs_without(
         logged = log_dataset(careful, **results)
         log_intervals(careful, **interval_files, parents=logged)
         runs = snapshot(campaign)
-        assert not without & set(runs)
+        assert without & set(runs) == {plain["campaign"]}  # the run that groups them is written into
         assert len(runs) == len(without)
         assert all("**caution**: Few trials." in run["data"]["tags"][NOTE] for run in runs.values())
     tags = client_of_store(campaign).get_experiment_by_name("finger").tags
@@ -123,29 +130,73 @@ def test_other_timings_alone_are_no_new_result(campaign: Campaign, results: dict
     assert log_dataset(campaign, **results) == first
 
 
-def test_a_changed_result_replaces_its_run_and_no_other(campaign: Campaign, results: dict[str, Any]) -> None:
+def test_a_changed_result_supersedes_its_run_and_no_other(campaign: Campaign, results: dict[str, Any]) -> None:
     first = log_dataset(campaign, **results)
     Path(results["runs"]["svr", "tuned"]["predictions"]).write_text("moved")
     second = log_dataset(campaign, **results)
     assert second["svr/paper"] == first["svr/paper"]
     assert second["svr/tuned"] != first["svr/tuned"]
     assert set(snapshot(campaign)) == set(second.values())
-
-
-def test_a_run_cut_off_before_its_end_is_made_again(campaign: Campaign, results: dict[str, Any]) -> None:
-    first = log_dataset(campaign, **results)
     client = client_of_store(campaign)
-    client.delete_tag(first["svr/paper"], CONTENT)  # it is written last
-    second = log_dataset(campaign, **results)
-    assert second["svr/paper"] != first["svr/paper"]
-    assert len(snapshot(campaign)) == 3
+    old, new = (client.get_run(logged["svr/tuned"]).data.tags for logged in (first, second))
+    assert old["superseded_by"] == second["svr/tuned"]
+    assert old["current"] == "false"
+    assert new["supersedes"] == first["svr/tuned"]
+    assert len(snapshot(campaign, all_of_them=True)) == len(first) + 1
 
 
-def test_a_model_that_left_the_pool_leaves_the_store(campaign: Campaign, results: dict[str, Any]) -> None:
-    log_dataset(campaign, **results)
+def test_a_result_that_returns_is_a_new_run_after_the_one_between(campaign: Campaign, results: dict[str, Any]) -> None:
+    predictions = Path(results["runs"]["svr", "tuned"]["predictions"])
+    logged = []
+    for text in ("one", "other", "one"):
+        predictions.write_text(text)
+        logged.append(log_dataset(campaign, **results)["svr/tuned"])
+    assert len(set(logged)) == 3
+    tags = [client_of_store(campaign).get_run(run).data.tags for run in logged]
+    assert [run.get("superseded_by") for run in tags] == [*logged[1:], None]
+    assert [run.get("supersedes") for run in tags] == [None, *logged[:-1]]
+
+
+def test_a_run_cut_off_before_its_end_is_removed_and_made_again(campaign: Campaign, results: dict[str, Any]) -> None:
+    client = client_of_store(campaign)
+    write = MlflowClient.log_batch
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(MlflowClient, "log_batch", lambda *args, **keys: cut_off(write, args, keys))
+        with pytest.raises(KeyboardInterrupt):
+            log_dataset(campaign, **results)
+    half = snapshot(campaign, all_of_them=True)
+    assert "RUNNING" in {run["info"]["status"] for run in half.values()}
+    logged = log_dataset(campaign, **results)
+    assert set(snapshot(campaign, all_of_them=True)) == set(logged.values())
+    assert {client.get_run(run).info.status for run in logged.values()} == {"FINISHED"}
+
+
+def cut_off(write: Callable[..., object], args: Sequence[Any], keys: Mapping[str, Any]) -> None:
+    """What `log_batch` of MLflow's client does, until a run has parameters."""
+    if keys.get("params"):
+        raise KeyboardInterrupt
+    write(*args, **keys)
+
+
+def test_a_model_that_left_the_pool_is_current_no_more(campaign: Campaign, results: dict[str, Any]) -> None:
+    first = log_dataset(campaign, **results)
     del results["runs"]["svr", "paper"]
     logged = log_dataset(campaign, **results)
     assert set(snapshot(campaign)) == set(logged.values())
+    gone = client_of_store(campaign).get_run(first["svr/paper"])
+    assert gone.data.tags["superseded_by"] == "nothing"
+    assert gone.info.lifecycle_stage == "active"
+
+
+def test_artifacts_that_are_gone_are_logged_anew(campaign: Campaign, results: dict[str, Any]) -> None:
+    first = log_dataset(campaign, **results)
+    client = client_of_store(campaign)
+    folder = folder_of(client.get_run(first["svr/tuned"]).info.artifact_uri)
+    (folder / "model.joblib").unlink()
+    (folder / "figures" / "ranking.png").unlink()
+    assert log_dataset(campaign, **results) == first
+    assert (folder / "model.joblib").read_text() == "fitted"
+    assert (folder / "figures" / "ranking.png").read_text() == "drawn"
 
 
 def test_campaigns_stand_side_by_side(campaign: Campaign, results: dict[str, Any]) -> None:

@@ -1,0 +1,110 @@
+"""Let one process at a time find, write and sweep the runs of a dataset.
+
+Two that do so at once would each see runs that the other has not finished, and delete or double them. A store in a file
+has a lock file beside it, which the system frees when its process ends. A server has a registered model of the lock's
+name: MLflow refuses a second one of a name, so whoever made it has the lock.
+"""
+
+from __future__ import annotations
+
+import logging
+import os
+import socket
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from filelock import FileLock, Timeout
+from mlflow import MlflowClient
+from mlflow.exceptions import MlflowException
+
+from softkin.core.errors import StoreError
+from softkin.tracking.store import SQLITE
+
+logger = logging.getLogger("softkin")
+
+#: Seconds after which a lock on a server is that of a process which died: logging a dataset takes a minute.
+LEASE = 1800.0
+#: Seconds that a process waits for a lock, and between two looks at one on a server.
+PATIENCE, PAUSE = 3600.0, 2.0
+#: What the names of locks on a server begin with.
+PREFIX = "softkin-lock-"
+
+
+@contextmanager
+def locked(tracking_uri: str, name: str, *, patience: float = PATIENCE) -> Iterator[None]:
+    """Hold the lock `name` of a store.
+
+    Parameters:
+        tracking_uri: where the store is.
+        name: what is locked, such as a dataset.
+        patience: seconds to wait for another process; 3600 by default.
+
+    Raises:
+        StoreError: another process has it all that time.
+    """
+    guard = _file_lock if tracking_uri.startswith(SQLITE) else _server_lock
+    with guard(tracking_uri, name, patience):
+        yield
+
+
+@contextmanager
+def _file_lock(tracking_uri: str, name: str, patience: float) -> Iterator[None]:
+    file = Path(f"{tracking_uri.removeprefix(SQLITE)}.{name}.lock")
+    lock = FileLock(file, timeout=patience)
+    try:
+        lock.acquire()
+    except Timeout as error:
+        raise _taken(str(file), patience) from error
+    try:
+        yield
+    finally:
+        lock.release()
+
+
+@contextmanager
+def _server_lock(tracking_uri: str, name: str, patience: float) -> Iterator[None]:
+    client, lock = MlflowClient(tracking_uri), f"{PREFIX}{name}"
+    holder = f"{socket.gethostname()} {os.getpid()}"
+    deadline = time.monotonic() + patience
+    while not _made(client, lock, holder):
+        _break_if_old(client, lock)
+        if time.monotonic() > deadline:
+            raise _taken(lock, patience)
+        time.sleep(PAUSE)
+    try:
+        yield
+    finally:
+        client.delete_registered_model(lock)
+
+
+def _made(client: MlflowClient, lock: str, holder: str) -> bool:
+    """Whether this process has made the lock; False where it is there."""
+    try:
+        client.create_registered_model(lock, {"holder": holder}, "A lock of softkin: it goes when logging is done.")
+    except MlflowException as error:
+        if error.error_code == "RESOURCE_ALREADY_EXISTS":
+            return False
+        raise
+    return True
+
+
+def _break_if_old(client: MlflowClient, lock: str) -> None:
+    """Delete a lock whose lease has ended."""
+    try:
+        there = client.get_registered_model(lock)
+        if time.time() - there.creation_timestamp / 1000 > LEASE:
+            logger.warning(
+                "the lock %s of %s is older than %.0f s and is broken", lock, there.tags.get("holder"), LEASE
+            )
+            client.delete_registered_model(lock)
+    except MlflowException as error:
+        if error.error_code != "RESOURCE_DOES_NOT_EXIST":
+            raise
+
+
+def _taken(lock: str, patience: float) -> StoreError:
+    return StoreError(
+        f"another process has logged to the store for {patience:.0f} s", where=lock, fix="wait for it, or end it"
+    )

@@ -1,0 +1,181 @@
+"""Log each run to the MLflow store once, and keep the runs that it follows.
+
+The tag `softkin.key` identifies what a run shows. A run is followed by a new one only when its `softkin.content`, a
+hash over what it shows (timings apart), has changed; so logging twice changes nothing. Of the runs of a key one has the
+tag `current` = true; the others have `superseded_by`, the id of the run after them, and that one has `supersedes`.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import logging
+import time
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from mlflow import MlflowClient
+from mlflow.entities import DatasetInput, Metric, Param, Run
+
+from softkin.tracking.artifacts import are_there
+from softkin.tracking.store import PARENT
+
+logger = logging.getLogger("softkin")
+
+KEY, CONTENT = "softkin.key", "softkin.content"
+CURRENT, SUPERSEDES, SUPERSEDED_BY = "current", "supersedes", "superseded_by"
+#: The value of `superseded_by` where the configuration has no such run any more.
+NOTHING = "nothing"
+YES, NO = "true", "false"
+#: The store takes a thousand metrics a batch.
+BATCH = 900
+#: Entries that the store gives at once.
+PAGE = 1000
+
+
+@dataclass(frozen=True, slots=True)
+class Record:
+    """What one run shows. It is a new run when its `content` changes; `texts` and `files` become artifacts, `figures`
+    artifacts in a folder of that name. `started` (milliseconds) and `seconds` place it in the UI's table.
+    """
+
+    key: str
+    name: str
+    content: Any
+    tags: Mapping[str, str]
+    started: int
+    seconds: float = 0.0
+    metrics: Mapping[str, float] = field(default_factory=dict)
+    curves: Sequence[tuple[str, int, float]] = ()
+    params: Mapping[str, Any] = field(default_factory=dict)
+    inputs: Sequence[DatasetInput] = ()
+    files: Sequence[str] = ()
+    figures: Sequence[str] = ()
+    texts: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def hash(self) -> str:
+        """SHA-256 (hex) of the content."""
+        return hashlib.sha256(json.dumps(self.content, sort_keys=True).encode()).hexdigest()
+
+
+def put(client: MlflowClient, experiment: str, record: Record, there: Sequence[Run] | None = None) -> str:
+    """Log `record` unless the current run of its key has the same content; return the id of the run.
+
+    A current run of other content is kept, and marked as superseded. The parent is no part of the content: the tag
+    follows it. Artifacts that are gone are logged anew.
+
+    Parameters:
+        client: of the store.
+        experiment: id of the experiment.
+        record: what the run shows.
+        there: current runs, among them that of the record's key if there is one; None: they are looked up.
+    """
+    there = find(client, experiment, **{KEY: record.key, CURRENT: YES}) if there is None else there
+    old = [run for run in there if run.data.tags.get(KEY) == record.key]
+    same = [run for run in old if run.data.tags.get(CONTENT) == record.hash]
+    if same:
+        run = same[0]
+        run_id = str(run.info.run_id)
+        if PARENT in record.tags and run.data.tags.get(PARENT) != record.tags[PARENT]:
+            client.set_tag(run_id, PARENT, record.tags[PARENT])
+        if not are_there(client, run, record):
+            log_artifacts(client, run_id, record)
+        _supersede(client, [other for other in old if other is not run], by=run_id)
+        return run_id
+    run_id = _create(client, experiment, record)
+    last = {CONTENT: record.hash, CURRENT: YES} | ({SUPERSEDES: str(old[0].info.run_id)} if old else {})
+    set_tags(client, run_id, last)
+    # Its end comes last: a run that was cut off is still running, and is swept by the next process.
+    client.set_terminated(run_id, end_time=record.started + int(1000 * record.seconds))
+    _supersede(client, old, by=run_id)
+    return run_id
+
+
+def update(client: MlflowClient, experiment: str, record: Record) -> str:
+    """Log `record` to the one run of its key, which it is written into; return its id. For runs that group others."""
+    there = find(client, experiment, **{KEY: record.key, CURRENT: YES})
+    if not there:
+        return put(client, experiment, record, [])
+    run, run_id = there[0], str(there[0].info.run_id)
+    if run.data.tags.get(CONTENT) != record.hash or not are_there(client, run, record):
+        log_artifacts(client, run_id, record)
+        if record.inputs:
+            client.log_inputs(run_id, list(record.inputs))
+        set_tags(client, run_id, {**record.tags, CONTENT: record.hash})
+    return run_id
+
+
+def retire(client: MlflowClient, there: Sequence[Run], keys: Collection[str]) -> None:
+    """Mark the current runs `there` whose key is none of `keys`: nothing in the configuration makes them any more."""
+    _supersede(client, [run for run in there if run.data.tags[KEY] not in keys], by=NOTHING)
+
+
+def sweep(client: MlflowClient, experiment: str, **tags: str) -> None:
+    """Delete the runs with these tags that a process began and did not end, with their logged models.
+
+    Whoever sweeps holds the lock of what it sweeps, so that nobody is writing them.
+    """
+    unfinished = find(client, experiment, "attributes.status = 'RUNNING'", **tags)
+    for run in unfinished:
+        models = client.search_logged_models([experiment], f"source_run_id = '{run.info.run_id}'")
+        for model in models:
+            client.delete_logged_model(model.model_id)
+        client.delete_run(run.info.run_id)
+    if unfinished:
+        logger.info("removed %d runs from the store that had been cut off while they were logged", len(unfinished))
+
+
+def find(client: MlflowClient, experiment: str, *conditions: str, **tags: str) -> list[Run]:
+    """The experiment's runs with these tags that meet these conditions of MLflow, however many there are."""
+    query = " and ".join([*conditions, *(f"tags.`{name}` = '{value}'" for name, value in tags.items())])
+    return list(all_pages(client.search_runs, [experiment], query))
+
+
+def all_pages(search: Callable[..., Any], *wanted: Any) -> Iterator[Any]:
+    """All that a `search_...` of MLflow's client finds by the arguments `wanted`: it gives a page at a time."""
+    token = None
+    while True:
+        page = search(*wanted, max_results=PAGE, page_token=token)
+        yield from page
+        token = page.token
+        if not token:
+            return
+
+
+def set_tags(client: MlflowClient, run_id: str, tags: Mapping[str, str]) -> None:
+    """Set tags of a run, in one call to the store each."""
+    for name, value in tags.items():
+        client.set_tag(run_id, name, value)
+
+
+def log_artifacts(client: MlflowClient, run_id: str, record: Record) -> None:
+    """Log the artifacts of a record; those that are there are replaced."""
+    for file in record.files:
+        client.log_artifact(run_id, file)
+    for file in record.figures:
+        client.log_artifact(run_id, file, "figures")
+    for name, text in record.texts.items():
+        client.log_text(run_id, text, name)
+
+
+def _create(client: MlflowClient, experiment: str, record: Record) -> str:
+    """A new run with all that the record shows but its content; return its id."""
+    tags = {KEY: record.key, **record.tags, CURRENT: NO}
+    run_id = str(client.create_run(experiment, record.started, tags, record.name).info.run_id)
+    now = int(time.time() * 1000)
+    metrics = [Metric(name, value, now, 0) for name, value in record.metrics.items()]
+    metrics += [Metric(name, value, now, step) for name, step, value in record.curves]
+    params = [Param(name, str(value)) for name, value in record.params.items()]
+    for start in range(0, max(len(metrics), 1), BATCH):
+        client.log_batch(run_id, metrics=metrics[start : start + BATCH], params=params if start == 0 else ())
+    if record.inputs:
+        client.log_inputs(run_id, list(record.inputs))
+    log_artifacts(client, run_id, record)
+    return run_id
+
+
+def _supersede(client: MlflowClient, runs: Sequence[Run], by: str) -> None:
+    for run in runs:
+        set_tags(client, run.info.run_id, {SUPERSEDED_BY: by, CURRENT: NO})
