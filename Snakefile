@@ -17,6 +17,7 @@ configfile: Path(workflow.basedir) / "config" / "datasets.yaml"
 
 
 include: "workflow/rules/configuration.smk"
+include: "workflow/rules/one_run.smk"
 include: "workflow/rules/paths.smk"
 include: "workflow/rules/deciding_code.smk"
 include: "workflow/rules/retrieve.smk"
@@ -28,6 +29,7 @@ include: "workflow/rules/calibrate.smk"
 include: "workflow/rules/score.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/tables.smk"
+include: "workflow/rules/summarise.smk"
 include: "workflow/rules/timed_jobs.smk"
 include: "workflow/rules/report.smk"
 include: "workflow/rules/track.smk"
@@ -42,6 +44,7 @@ rule all:
 
 
 onstart:
+    count_jobs()
     warn_of_stand_ins()
     watch()
 

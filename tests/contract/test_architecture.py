@@ -32,6 +32,7 @@ LEVELS = [
     {"uncertainty"},
     {"evaluation"},
     {"reporting"},
+    {"campaigns"},
     {"tracking"},
     {"cli"},
 ]

@@ -5,5 +5,6 @@ localrules:
     create_store,
     track,
     build_tables,
+    summarise,
     draw_campaign_figures,
     build_report,

@@ -160,6 +160,7 @@ def final_output():
         HEADLINE,
         *(f"results/tables/{name}" for name in PAPER_TABLES),
         "results/tables/figures",
+        "results/tables/summary.json",
         *(f"results/tables/{name}" for name in TABLES),
         *expand(
             "results/{dataset}/{name}",

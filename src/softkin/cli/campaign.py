@@ -1,0 +1,127 @@
+"""Run one unattended campaign: the workflow, what changed since the last one, a verdict, and an exit code.
+
+    python -m softkin.cli.campaign --cores 2
+
+Exit codes: 0 same or better, 1 failed, 3 worse, 4 the data changed in a way that needs a person, 75 another campaign
+goes on. results/verdict.json and results/verdict.md say why.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+
+from filelock import FileLock, Timeout
+
+from softkin.campaigns.verdict import BUSY, EXIT_CODES, FAILED, Verdict
+from softkin.cli.judging import Results, judge_results, log_failure
+from softkin.cli.workflow_process import Ended, run_workflow
+from softkin.core.errors import SoftkinError
+from softkin.core.files import read_json, write_json, write_text
+
+LOCK, HOLDER = "campaign.lock", "campaign.json"
+
+
+@dataclass(frozen=True, slots=True)
+class Arguments:
+    """What a campaign was asked for."""
+
+    cores: int
+    snakefile: Path
+    directory: Path
+    configfile: list[Path]
+    refit: bool
+    notify: str | None
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a campaign; return its exit code."""
+    asked = _parsed(arguments)
+    results = asked.directory / "results"
+    results.mkdir(parents=True, exist_ok=True)
+    lock = FileLock(results / LOCK, timeout=0)
+    try:
+        lock.acquire()
+    except Timeout:
+        holder = read_json(results / HOLDER) if (results / HOLDER).exists() else {}
+        who = f"process {holder.get('pid', 'unknown')} has run one since {holder.get('since', 'an unknown time')}"
+        print(f"softkin: a campaign goes on in {asked.directory}: {who}.", file=sys.stderr)
+        return EXIT_CODES[BUSY]
+    write_json(results / HOLDER, {"pid": os.getpid(), "since": datetime.now(UTC).isoformat(timespec="seconds")})
+    with lock:
+        verdict = _campaign(asked, results)
+    write_json(results / "verdict.json", verdict.as_dict())
+    write_text(results / "verdict.md", verdict.as_markdown())
+    print(verdict.as_markdown())
+    if asked.notify:
+        _notify(asked.notify, verdict)
+    return verdict.exit_code
+
+
+def _campaign(asked: Arguments, results: Path) -> Verdict:
+    """Run the workflow, and judge what it left."""
+    started = time.time()
+    ended = run_workflow(_command(asked), directory=asked.directory, results=results, refit=asked.refit)
+    found = Results(results, started, ended)
+    if ended.exit_code != 0:
+        return log_failure(found, _reasons(ended, results, started))
+    try:
+        return judge_results(found, refit=asked.refit)
+    except SoftkinError as error:
+        return Verdict(FAILED, [str(error)], facts=found.facts())
+
+
+def _command(asked: Arguments) -> list[str]:
+    """The command line of Snakemake."""
+    command = [sys.executable, "-m", "snakemake", "--cores", str(asked.cores), "--snakefile", str(asked.snakefile)]
+    command += ["--directory", str(asked.directory), *(["--forceall"] if asked.refit else [])]
+    return [*command, *(["--configfile", *map(str, asked.configfile)] if asked.configfile else [])]
+
+
+def _reasons(ended: Ended, results: Path, started: float) -> list[str]:
+    """Why the workflow failed, in sentences: what its jobs say in their logs, and how it ended."""
+    if ended.signal:
+        return [f"It was stopped by {ended.signal}."]
+    errors = []
+    for log in sorted((results / "logs").rglob("*.log")):
+        if log.stat().st_mtime < started:
+            continue
+        lines = log.read_text(encoding="utf-8", errors="replace").splitlines()
+        found = [line.split(" ERROR ", 1)[1] for line in lines if " ERROR " in line]
+        errors += [f"{log.relative_to(results / 'logs').with_suffix('')}: {found[0]}"] if found else []
+    return [*errors, f"The workflow ended with exit code {ended.exit_code}; results/logs and .snakemake/log say more."]
+
+
+def _notify(command: str, verdict: Verdict) -> None:
+    """Give the verdict to a command of the user's choice on its standard input; SOFTKIN_OUTCOME says how it ended."""
+    environment = os.environ | {"SOFTKIN_OUTCOME": verdict.outcome, "SOFTKIN_EXIT_CODE": str(verdict.exit_code)}
+    done = subprocess.run(command, shell=True, input=verdict.as_markdown(), text=True, env=environment, check=False)
+    if done.returncode:
+        print(f"softkin: the notification ended with exit code {done.returncode}: {command}", file=sys.stderr)
+
+
+def _parsed(arguments: Sequence[str] | None) -> Arguments:
+    parser = argparse.ArgumentParser(prog="softkin.cli.campaign", description=__doc__, allow_abbrev=False,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)  # fmt: skip
+    parser.add_argument("--cores", type=int, default=2, help="jobs at a time; 2 by default")
+    parser.add_argument("--snakefile", type=Path, default=Path("Snakefile"), help="of the workflow")
+    parser.add_argument("--directory", type=Path, default=Path(), help="folder that results go to; this one by default")
+    parser.add_argument("--configfile", type=Path, nargs="+", default=[], help="more configuration, as of Snakemake")
+    parser.add_argument("--refit", action="store_true", help="redo everything; the same numbers must come out")
+    parser.add_argument("--notify", help="command that gets the verdict on its standard input")
+    values = vars(parser.parse_args(arguments))
+    for name in ("snakefile", "directory"):
+        values[name] = values[name].resolve()
+    values["configfile"] = [path.resolve() for path in values["configfile"]]
+    return Arguments(**values)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,35 @@
+# One run at a time in a folder, see src/softkin/cli/one_run.py; what a killed run has left is cleared before anything is
+# looked at. No rule of its own.
+import json
+import shlex
+import sys
+
+from softkin.cli.one_run import OneRun, only_looks
+
+# Snakemake (9.27.1) writes the interpreter into command lines as it is: with a blank in its path no script would start.
+sys.executable = shlex.quote(sys.executable)
+
+# How many jobs a run has to do, and how many there are: a campaign reads it.
+JOBS = Path("results/logs/jobs.json")
+
+
+def take_folder():
+    """Be the only run here, or stop."""
+    try:
+        for sentence in RUN.take():
+            print(f"softkin: {sentence}.", file=sys.stderr)
+    except SoftkinError as error:
+        raise WorkflowError(str(error)) from None
+
+
+def count_jobs():
+    """Write how many jobs this run does."""
+    names = [job.rule.name for job in workflow.dag.needrun_jobs() if not job.is_norun]
+    counted = {"run": len(names), "all": sum(not j.is_norun for j in workflow.dag.jobs)}
+    JOBS.parent.mkdir(parents=True, exist_ok=True)
+    JOBS.write_text(json.dumps(counted), encoding="utf-8")
+
+
+if workflow.is_main_process and not only_looks(sys.argv):
+    RUN = OneRun.of(Path.cwd())
+    take_folder()
