@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 from scipy import stats
 
 from softkin.campaigns.bootstrap import p_of_growth, p_of_growth_between
@@ -97,7 +98,7 @@ def compare(
     tolerances = replace(tolerances, resamples=max(tolerances.resamples, needed))
     for dataset in shared:
         for subset in SCORED:
-            old, new = (_commands(rows, dataset, subset) for rows in (before, now))
+            old, new = (_Commands.of(rows, dataset, subset) for rows in (before, now))
             if len(old) and len(new):
                 law = _Law(confidence_level, calibration_rows[dataset])
                 found += _of_subset((dataset, subset), old, new, law, tolerances, seed)
@@ -128,30 +129,43 @@ class _Law:
         return float(stats.betabinom(n_rows, rank, self.n_calibration + 1 - rank).cdf(n_covered))
 
 
-def _commands(rows: pd.DataFrame, dataset: str, subset: str) -> pd.DataFrame:
-    """A row for each distinct command of a subset: means of its rows, and whether its first row is covered."""
-    of_subset = rows[(rows["dataset"] == dataset) & (rows["subset"] == subset)]
-    by_command = of_subset.groupby("command", sort=True)
-    means = by_command[["error_mm", "width_mm"]].mean()
-    return means.assign(covered=by_command["covered"].first(), rows=by_command["row"].agg("".join))
+@dataclass(frozen=True, slots=True)
+class _Commands:
+    """The distinct commands of a subset, in the order of their names: means of their rows, and their first rows."""
+
+    names: list[str]
+    rows: list[str]
+    error_mm: Array
+    width_mm: Array
+    hits: NDArray[np.bool_]
+
+    @classmethod
+    def of(cls, rows: pd.DataFrame, dataset: str, subset: str) -> _Commands:
+        """Those of a subset among the rows of a campaign."""
+        part = rows[(rows["dataset"] == dataset) & (rows["subset"] == subset)]
+        names, first, place = np.unique(part["command"].to_numpy(str), return_index=True, return_inverse=True)
+        counts = np.bincount(place)
+        error, width = (np.bincount(place, part[name].to_numpy(float)) / counts for name in ("error_mm", "width_mm"))
+        covered = part["covered"].to_numpy(object)[first]
+        hits = np.array([[digit == "1" for digit in text] for text in covered], dtype=np.bool_)
+        return cls(names.tolist(), sorted(part["row"]), error, width, hits)
+
+    def __len__(self) -> int:
+        return len(self.names)
 
 
 def _of_subset(
-    place: tuple[str, str], old: pd.DataFrame, new: pd.DataFrame, law: _Law, tolerances: Tolerances, seed: int
+    place: tuple[str, str], old: _Commands, new: _Commands, law: _Law, tolerances: Tolerances, seed: int
 ) -> list[Comparison]:
-    paired = list(old.index) == list(new.index) and bool((old["rows"] == new["rows"]).all())
+    paired = old.rows == new.rows
     made = []
-    for metric, column in ((ERROR, "error_mm"), (WIDTH, "width_mm")):
-        one, other = (frame[column].to_numpy(np.float64) for frame in (old, new))
+    for metric, one, other in ((ERROR, old.error_mm, new.error_mm), (WIDTH, old.width_mm, new.width_mm)):
         worse, better = _grown(one, other, paired, tolerances, seed), _grown(other, one, paired, tolerances, seed)
         made.append(Comparison(*place, metric, float(one.mean()), float(other.mean()), len(new), paired, worse, better))
-    hits, hits_now = (_hits(frame) for frame in (old, new))
-    if hits.shape[1] == hits_now.shape[1]:
-        worse = min(
-            1.0, hits.shape[1] * min(_dropped(a, b, paired, law) for a, b in zip(hits.T, hits_now.T, strict=True))
-        )
-        shares = (float(hits.mean()), float(hits_now.mean()))
-        made.append(Comparison(*place, COVERAGE, *shares, len(new), paired, worse, 1.0))
+    if old.hits.shape[1] == new.hits.shape[1]:
+        drops = [_dropped(a, b, paired, law) for a, b in zip(old.hits.T, new.hits.T, strict=True)]
+        shares = (float(old.hits.mean()), float(new.hits.mean()))
+        made.append(Comparison(*place, COVERAGE, *shares, len(new), paired, min(1.0, len(drops) * min(drops)), 1.0))
     return made if min(len(old), len(new)) >= FEWEST else [replace(one, p_worse=1.0, p_better=1.0) for one in made]
 
 
@@ -168,7 +182,7 @@ def _grown(before: Array, now: Array, paired: bool, tolerances: Tolerances, seed
     )
 
 
-def _dropped(before: np.ndarray, now: np.ndarray, paired: bool, law: _Law) -> float:
+def _dropped(before: NDArray[np.bool_], now: NDArray[np.bool_], paired: bool, law: _Law) -> float:
     """p-value of one coordinate being covered as often as before, or as often as its level says: the larger of both.
 
     Paired rows: the exact test of McNemar (1947), by the rows that only one interval covers; else Fisher's exact test.
@@ -180,11 +194,6 @@ def _dropped(before: np.ndarray, now: np.ndarray, paired: bool, law: _Law) -> fl
         table = [[now.sum(), (~now).sum()], [before.sum(), (~before).sum()]]
         drop = float(stats.fisher_exact(table, "less").pvalue)
     return max(drop, law.p_of_so_few(int(now.sum()), len(now)))
-
-
-def _hits(frame: pd.DataFrame) -> np.ndarray:
-    """Whether each command's first row is covered, (n_commands, n_moving_coordinates)."""
-    return np.array([[digit == "1" for digit in text] for text in frame["covered"]])
 
 
 def _outcome(one: Comparison, tolerances: Tolerances) -> str:

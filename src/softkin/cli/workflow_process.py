@@ -14,6 +14,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import FrameType
 
+import psutil
+
 from softkin.core.files import read_json
 
 #: Seconds that Snakemake and its jobs are given to end by themselves.
@@ -73,11 +75,21 @@ def _end(process: subprocess.Popen[bytes]) -> int:
     """End a process and all that it has started: by a signal, and by force after `GRACE` seconds."""
     os.killpg(process.pid, signal.SIGTERM)
     deadline = time.monotonic() + GRACE
-    while process.poll() is None and time.monotonic() < deadline:
+    while _group_lives(process.pid) and time.monotonic() < deadline:
+        process.poll()
         time.sleep(0.1)
     with suppress(ProcessLookupError):
         os.killpg(process.pid, signal.SIGKILL)
     return process.wait() or 1
+
+
+def _group_lives(group: int) -> bool:
+    """Whether a process of the group still runs."""
+    for process in psutil.process_iter(["pid", "status"]):
+        with suppress(ProcessLookupError):
+            if os.getpgid(process.pid) == group and process.info["status"] != psutil.STATUS_ZOMBIE:
+                return True
+    return False
 
 
 @contextmanager
