@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from softkin.core.imported_code import CHOSEN_FROM, WITHOUT_EFFECT, file_of, imported_code, imported_modules
+from softkin.core.manifest import MANIFEST, write_manifest
 from tests.conftest import HOUSE
 from tests.workflow.conftest import House, copy_house
 
@@ -89,7 +90,7 @@ WITHOUT_JOBS = [
 
 @dataclass(frozen=True)
 class Finished:
-    """A copy of the repository with the files of a finished run, all empty, and its configuration."""
+    """A copy of the repository with the files of a finished run, all empty but for manifests, and its configuration."""
 
     house: House
     configuration: Path
@@ -118,13 +119,16 @@ def finished(tmp_path_factory: pytest.TempPathFactory, mirror: Path) -> Finished
     assert planned.returncode == 0, planned.stdout + planned.stderr
     for line in map(str.strip, planned.stdout.splitlines()):
         kind, _, paths = line.partition(": ")
-        for path in paths.split(", ") if kind in ("output", "benchmark") else ():
-            made = work / path
-            made.parent.mkdir(parents=True, exist_ok=True)
-            if made.name == "figures":
-                made.mkdir()
+        made = [work / path for path in paths.split(", ") if kind in ("output", "benchmark")]
+        for path in made:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            if path.name == "figures":
+                path.mkdir()
             else:
-                made.touch()
+                path.touch()
+        for path in made:
+            if path.name == MANIFEST:
+                write_manifest(path, [file for file in made if file != path])
     recorded = house.snakemake(
         "--touch", "--forceall", more=configuration
     )  # the params of each job, the code among them
@@ -153,3 +157,36 @@ def test_an_edited_module_reruns_what_it_decides_and_nothing_else(module: str, f
     assert len(jobs) == len(set(jobs))
     if module == "models/svr.py":
         assert [wildcards for rule, wildcards in jobs if rule == "fit_model"] == ["dataset=finger, model=svr"]
+
+
+#: A file of SVR.
+FILE = "results/finger/svr/tuned/predictions.parquet"
+
+
+def test_what_a_changed_file_decides_is_made_again(finished: Finished) -> None:
+    """By content, not by time; and the model is not fitted again."""
+    file = finished.house.work / FILE
+    manifest = file.parents[1] / MANIFEST
+    before = manifest.read_bytes()
+    os.utime(file)
+    assert finished.house.jobs(finished.configuration) == []
+    file.write_text("changed")
+    try:
+        assert {rule for rule, _ in finished.house.jobs(finished.configuration)} == REFITTED
+    finally:
+        file.write_text("")
+        manifest.write_bytes(before)
+
+
+def test_a_missing_file_is_made_again_for_what_needs_it_and_by_its_model_alone(finished: Finished) -> None:
+    file = finished.house.work / FILE
+    manifest = file.parents[1] / MANIFEST
+    before = manifest.read_bytes()
+    file.unlink()
+    try:
+        jobs = finished.jobs_after_editing("evaluation/score_points.py")
+        assert {rule for rule, _ in jobs} == FITTED
+        assert [wildcards for rule, wildcards in jobs if rule == "fit_model"] == ["dataset=finger, model=svr"]
+    finally:
+        file.touch()
+        manifest.write_bytes(before)

@@ -3,10 +3,8 @@
 #      that predicts with the chosen model and method, with intervals, regions and p-values, at any command
 rule calibrate:
     input:
-        unpack(stored_outputs),
+        **STORED_OUTPUTS,
         table="results/{dataset}/table.parquet",
-        parameters=run_files("parameters.json", SEARCHED),
-        models=run_files("model.joblib"),
     output:
         intervals=expand(
             "results/{{dataset}}/intervals/{method}.parquet",

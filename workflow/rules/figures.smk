@@ -5,8 +5,7 @@ rule draw_figures:
         table="results/{dataset}/table.parquet",
         description="results/{dataset}/dataset.json",
         data_card="results/{dataset}/data_card.json",
-        predictions=run_files("predictions.parquet"),
-        trials=run_files("trials.csv", [TUNED]),
+        models=MODEL_MANIFESTS,
         intervals=expand(
             "results/{{dataset}}/intervals/{method}.parquet",
             method=config["interval_methods"],
@@ -36,7 +35,7 @@ rule draw_figures:
     threads: 1
     params:
         runs=every_run(),
-        tuned=[model for model, preset in every_run() if preset == TUNED],
+        tuned=[run for run in every_run() if run[1] == TUNED],
         methods=config["interval_methods"],
         source=source,
         code=code_of("draw_figures"),

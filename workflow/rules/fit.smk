@@ -1,6 +1,6 @@
 # in:  the table of a dataset (rows of train are searched and fitted on, commands of the others predicted)
 # out: of each preset of a model: the fitted model, the record of what it took, its predictions of every subset; of each
-#      searched preset its best parameters and all trials
+#      searched preset its best parameters and all trials; and the manifest of these files
 # One job for all presets and steps: starting one costs more than most fits. The studies themselves live in
 # results/studies: Snakemake deletes the outputs of a job that was cut off, and a study must outlive that to be resumed.
 rule fit_model:
@@ -12,6 +12,7 @@ rule fit_model:
         predictions=of_presets("predictions.parquet"),
         parameters=of_searched("parameters.json"),
         trials=of_searched("trials.csv"),
+        manifest=f"results/{{dataset}}/{{model}}/{MANIFEST}",
     log:
         "results/logs/fit_model/{dataset}/{model}.log",
     benchmark:
@@ -42,7 +43,7 @@ if QUANTILE_RUNS:
 
     # in:  the table of a dataset (rows of train are searched and fitted on, commands of the others predicted)
     # out: of each preset of a quantile regressor: the fitted one, its quantiles of validation, test and extrapolation,
-    #      and the record of what it took; of the tuned preset its best parameters and all trials
+    #      and the record of what it took; of the tuned preset its best parameters and all trials; and their manifest
     rule fit_quantiles:
         input:
             table="results/{dataset}/table.parquet",
@@ -52,6 +53,7 @@ if QUANTILE_RUNS:
             records=of_quantile_presets("fit.json"),
             parameters=of_quantile_presets("parameters.json", [TUNED]),
             trials=of_quantile_presets("trials.csv", [TUNED]),
+            manifest=f"results/{{dataset}}/quantiles/{{quantile_model}}/{MANIFEST}",
         log:
             "results/logs/fit_quantiles/{dataset}/{quantile_model}.log",
         benchmark:

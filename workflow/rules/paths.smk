@@ -1,4 +1,5 @@
 # Names of runs and paths of files: what the configuration spans, and what more than one stage needs.
+from softkin.core.manifest import MANIFEST, renew_manifest
 from softkin.core.runs import OUTER, PAPER, PRESETS, SEARCHED, TUNED
 
 HEADLINE = "results/tables/headline.txt"
@@ -61,13 +62,10 @@ def searched_runs():
     return [run for run in every_run() if run[1] in SEARCHED]
 
 
-def run_files(name, presets=tuple(PRESETS), models=tuple(config["models"])):
-    """One file of each run of a dataset, in the order of `every_run`."""
-    return [
-        f"results/{{dataset}}/{model}/{preset}/{name}"
-        for model, preset in every_run(models)
-        if preset in presets
-    ]
+# The manifests of a dataset's models: they stand for all files of the models, see src/softkin/core/manifest.py.
+MODEL_MANIFESTS = [
+    f"results/{{dataset}}/{model}/{MANIFEST}" for model in config["models"]
+]
 
 
 def asks_for(trait):
@@ -91,25 +89,23 @@ QUANTILE_PRESETS = [
 QUANTILE_RUNS = [
     [name, preset] for name in config["quantile_models"] for preset in QUANTILE_PRESETS
 ]
+QUANTILE_MANIFESTS = [
+    f"results/{{dataset}}/quantiles/{name}/{MANIFEST}"
+    for name in config["quantile_models"]
+] * bool(QUANTILE_PRESETS)
 # The refits that a configured method needs; none of the others are made.
 REFITS = ["results/{dataset}/refits.npz"] * asks_for("needs_refits")
 SHELLS = ["results/{dataset}/shells.npz"] * asks_for("needs_shells")
 OTHER_SPACES = ["results/{dataset}/other_spaces.parquet"] * bool(COMPARED)
 
 
-def stored_outputs(wildcards):
-    """Everything that the interval methods start from, of one dataset."""
-    quantiles = "results/{{dataset}}/quantiles/{0}/{1}/quantiles.parquet"
-    patterns = {
-        "predictions": run_files("predictions.parquet"),
-        "quantiles": [quantiles.format(*run) for run in QUANTILE_RUNS],
-        "refits": REFITS,
-        "shells": SHELLS,
-    }
-    return {
-        name: expand(paths, dataset=wildcards.dataset)
-        for name, paths in patterns.items()
-    }
+# All that the interval methods start from, of one dataset.
+STORED_OUTPUTS = {
+    "models": MODEL_MANIFESTS,
+    "quantile_models": QUANTILE_MANIFESTS,
+    "refits": REFITS,
+    "shells": SHELLS,
+}
 
 
 def interval_params():
@@ -138,18 +134,11 @@ def tuning(*keys):
 
 
 def of_every_dataset(patterns):
-    """The files of the first dataset, then those of the second, ...: the order of `every_study`."""
+    """The files of the first dataset, then those of the second, ..."""
     return [
         path
         for dataset in config["datasets"]
         for path in expand(patterns, dataset=dataset)
-    ]
-
-
-def every_study():
-    """[dataset, model, preset] of each study."""
-    return [
-        [dataset, *run] for dataset in config["datasets"] for run in searched_runs()
     ]
 
 
@@ -169,3 +158,9 @@ def final_output():
         ),
         *expand("results/{dataset}/mlflow_runs.json", dataset=config["datasets"]),
     ]
+
+
+# A file that is missing or has changed since it was written counts as it would if a rule declared it.
+if workflow.is_main_process:
+    for manifest in of_every_dataset(MODEL_MANIFESTS + QUANTILE_MANIFESTS):
+        renew_manifest(manifest)

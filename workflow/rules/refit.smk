@@ -7,8 +7,7 @@ if REFITS or SHELLS or COMPARED:
     rule refit:
         input:
             table="results/{dataset}/table.parquet",
-            records=run_files("fit.json"),
-            parameters=run_files("parameters.json", SEARCHED),
+            models=MODEL_MANIFESTS,
         output:
             refits=REFITS,
             shells=SHELLS,

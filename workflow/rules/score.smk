@@ -4,10 +4,8 @@
 #      them, each beside the oracle
 rule score:
     input:
-        unpack(stored_outputs),
+        **STORED_OUTPUTS,
         table="results/{dataset}/table.parquet",
-        records=run_files("fit.json"),
-        parameters=run_files("parameters.json", SEARCHED),
         other_spaces=OTHER_SPACES,
         intervals=expand(
             "results/{{dataset}}/intervals/{method}.parquet",

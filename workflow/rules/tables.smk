@@ -12,7 +12,7 @@ rule build_tables:
         spaces=of_every_dataset("results/{dataset}/target_spaces.csv"),
         description=of_every_dataset("results/{dataset}/dataset.json"),
         data_card=of_every_dataset("results/{dataset}/data_card.json"),
-        parameters=of_every_dataset(run_files("parameters.json", SEARCHED)),
+        models=of_every_dataset(MODEL_MANIFESTS),
     output:
         headline=report(
             HEADLINE,
@@ -45,7 +45,7 @@ rule build_tables:
     conda:
         SOFTWARE
     params:
-        studies=every_study(),
+        searched=searched_runs(),
         objective=config["objective"],
         caution=config.get("caution"),
         sources={name: config["sources"][name] for name in config["datasets"]},

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from softkin.core.job import job
+from softkin.core.manifest import files_of_runs
 from softkin.models import MODELS
 from softkin.reporting.tables.build import build_tables
 from softkin.reporting.tables.frames import DatasetFiles, PublishedFiles, read_tables
@@ -13,11 +14,19 @@ files, params = snakemake.input, snakemake.params
 published = Path(snakemake.scriptdir).resolve().parents[1] / "resources" / "published"
 kinds = ("point", "markers", "intervals", "choice", "conditional", "alarms", "extrapolation", "spaces")
 by_dataset = zip(*(files[kind] for kind in (*kinds, "description", "data_card")), strict=True)
+n_models = len(files.models) // len(params.sources)
+parameters = {
+    (dataset, *run): path
+    for place, dataset in enumerate(params.sources)
+    for run, path in files_of_runs(
+        files.models[place * n_models : (place + 1) * n_models], params.searched, "parameters.json"
+    ).items()
+}
 with job(snakemake.log[0], "build tables"):
     tables = read_tables(
         {name: DatasetFiles(*of_dataset) for name, of_dataset in zip(params.sources, by_dataset, strict=True)},
         sources=params.sources,
-        parameters={tuple(study): path for study, path in zip(params.studies, files.parameters, strict=True)},
+        parameters=parameters,
         objective=params.objective,
         published=PublishedFiles(
             *(published / f"{name}.csv" for name in ("point_metrics", "subsets", "interval_metrics"))

@@ -1,6 +1,7 @@
 """Rule calibrate: put the intervals of every method around a dataset's models; choose one, with its model a file."""
 
 from softkin.core.job import job
+from softkin.core.manifest import files_of_runs
 from softkin.core.runs import Run
 from softkin.models import MODELS
 from softkin.training.selection import deployable_runs
@@ -12,11 +13,11 @@ from softkin.uncertainty.stored_outputs import stored_outputs
 
 files, params, output, dataset = snakemake.input, snakemake.params, snakemake.output, snakemake.wildcards.dataset
 methods = {name: INTERVAL_METHODS[name] for name in params.methods}
-runs = [Run(*run) for run in params.runs]
-parameters = dict(zip([Run(*run) for run in params.searched], files.parameters, strict=True))
+models = files_of_runs(files.models, params.runs, "model.joblib")
+parameters = files_of_runs(files.models, params.searched, "parameters.json")
 with job(snakemake.log[0], f"calibrate {dataset}"):
     outputs = stored_outputs(files, params)
-    candidates = deployable_runs(runs, parameters, params.objective)
+    candidates = deployable_runs(list(models), parameters, params.objective)
     choose(outputs, methods=methods, runs=candidates, seed=params.seed, regime=params.regime, choice=output.choice)
     best = deployed_choice(output.choice)
     in_domain = {} if best is None else {Run(best["model"], best["preset"]): methods[best["interval_method"]]}
@@ -32,7 +33,7 @@ with job(snakemake.log[0], f"calibrate {dataset}"):
         choice=output.choice,
         specs=MODELS,
         methods=INTERVAL_METHODS,
-        models=dict(zip(runs, files.models, strict=True)),
+        models=models,
         shells=next(iter(files.shells), None),
         output=output.calibrated_model,
     )

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from softkin.core.files import read_json
 from softkin.core.job import job
-from softkin.core.runs import Run
+from softkin.core.manifest import files_of_runs
 from softkin.models import MODELS
 from softkin.models.quantile import QUANTILE_MODELS
 from softkin.reporting.figures import FIGURES
@@ -17,19 +17,15 @@ files, params, dataset = snakemake.input, snakemake.params, snakemake.wildcards.
 specs = QUANTILE_MODELS | MODELS
 
 
-def by_name(names, paths):
-    """The paths by name, in the same order."""
-    return dict(zip(names, map(Path, paths), strict=True))
-
-
 with job(snakemake.log[0], f"draw figures {dataset}"):
+    trials = files_of_runs(files.models, params.tuned, "trials.csv")
     results = DatasetResults(
         dataset=dataset,
         title=read_json(files.description)["title"],
         table=Path(files.table),
-        predictions=by_name([Run(*run) for run in params.runs], files.predictions),
-        trials=by_name(params.tuned, files.trials),
-        intervals=by_name(params.methods, files.intervals),
+        predictions=files_of_runs(files.models, params.runs, "predictions.parquet"),
+        trials={run.model: path for run, path in trials.items()},
+        intervals=dict(zip(params.methods, map(Path, files.intervals), strict=True)),
         point=Path(files.point),
         interval_metrics=Path(files.interval_metrics),
         choice=Path(files.choice),

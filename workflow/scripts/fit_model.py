@@ -2,6 +2,7 @@
 
 from softkin.core.files import read_json
 from softkin.core.job import job
+from softkin.core.manifest import write_manifest
 from softkin.core.runs import INTERPOLATION, OUTER, PAPER, SEARCHED, TUNED
 from softkin.models import MODELS
 from softkin.training.fit import FitFiles, fit
@@ -46,3 +47,4 @@ with job(snakemake.log[0], f"fit {dataset} {model}"):
         )
     for preset, of_preset in of_presets:
         fit(files.table, spec=spec, settings=settings_of(preset), files=of_preset, max_rows=params.max_rows)
+    write_manifest(output.manifest, [file for file in output if file != output.manifest])

@@ -2,6 +2,7 @@
 
 from softkin.core.files import read_json
 from softkin.core.job import job
+from softkin.core.manifest import write_manifest
 from softkin.core.runs import PAPER, TUNED, nearest_level
 from softkin.models.quantile import QUANTILE_MODELS
 from softkin.training.fit_quantiles import QuantileFiles, QuantileModel, fit_quantiles
@@ -30,3 +31,4 @@ with job(snakemake.log[0], f"fit quantiles {dataset} {model}"):
         levels = [nearest_level(params.confidence_levels)] if preset == PAPER else params.confidence_levels
         regressor = QuantileModel(spec, fitted_with[preset], levels, params.seed, threads)
         fit_quantiles(table, regressor=regressor, files=files)
+    write_manifest(output.manifest, [file for file in output if file != output.manifest])

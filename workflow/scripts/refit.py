@@ -1,6 +1,7 @@
 """Rule refit: refit models of a dataset on folds and bootstrap samples, on inner cores, in the other target space."""
 
 from softkin.core.job import job
+from softkin.core.manifest import files_of_runs
 from softkin.core.runs import OUTER, Run
 from softkin.models import MODELS
 from softkin.training.refit import RefittingSettings, refit
@@ -10,8 +11,8 @@ from softkin.training.selection import runs_to_refit, shell_runs
 
 files, params, output, threads = snakemake.input, snakemake.params, snakemake.output, snakemake.threads
 dataset = snakemake.wildcards.dataset
-records = dict(zip([Run(*run) for run in params.runs], files.records, strict=True))
-parameters = dict(zip([Run(*run) for run in params.searched], files.parameters, strict=True))
+records = files_of_runs(files.models, params.runs, "fit.json")
+parameters = files_of_runs(files.models, params.searched, "parameters.json")
 
 
 def specs(runs):

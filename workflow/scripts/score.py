@@ -1,6 +1,7 @@
 """Rule score: predictions and intervals of one dataset beside the truth."""
 
 from softkin.core.job import job
+from softkin.core.manifest import files_of_runs
 from softkin.core.runs import OUTER, Run
 from softkin.core.samples import SUBSETS
 from softkin.data.table import read_subset
@@ -17,9 +18,8 @@ from softkin.uncertainty.regions import REGION_METHODS
 from softkin.uncertainty.stored_outputs import stored_outputs
 
 files, params, output, dataset = snakemake.input, snakemake.params, snakemake.output, snakemake.wildcards.dataset
-runs = [Run(*run) for run in params.runs]
-predictions = dict(zip(runs, files.predictions, strict=True))
-parameters = dict(zip([Run(*run) for run in params.searched], files.parameters, strict=True))
+predictions = files_of_runs(files.models, params.runs, "predictions.parquet")
+parameters = files_of_runs(files.models, params.searched, "parameters.json")
 methods = {name: INTERVAL_METHODS[name] for name in params.methods}
 intervals = dict(zip(methods, files.intervals, strict=True))
 # Methods for extrapolation have nothing to show on test.
@@ -32,7 +32,7 @@ def points():
         files.table,
         dataset=dataset,
         predictions=predictions,
-        records=dict(zip(runs, files.records, strict=True)),
+        records=files_of_runs(files.models, params.runs, "fit.json"),
         point=output.point,
         markers=output.markers,
     )
@@ -81,7 +81,7 @@ def coverage():
             seed=params.seed,
         ),
         predictions=predictions,
-        runs=shell_runs(runs, parameters, params.objective, params.robust_models),
+        runs=shell_runs(list(predictions), parameters, params.objective, params.robust_models),
         output=output.extrapolation,
     )
 

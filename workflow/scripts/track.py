@@ -2,16 +2,18 @@
 
 from softkin.core.files import write_json
 from softkin.core.job import job
+from softkin.core.manifest import files_of_runs
 from softkin.core.runs import Run
 from softkin.tracking import Campaign, locked, log_champion, log_dataset, log_intervals
 
 files, params = snakemake.input, snakemake.params
-runs = {
-    Run(*run): {"model": model, "predictions": predictions, "fit": fit}
-    for run, model, predictions, fit in zip(params.runs, files.models, files.predictions, files.fit, strict=True)
-}
-for run, parameters, trials in zip(params.tuned, files.parameters, files.trials, strict=True):
-    runs[Run(*run)] |= {"parameters": parameters, "trials": trials}
+OF_EVERY_RUN = {"model": "model.joblib", "predictions": "predictions.parquet", "fit": "fit.json"}
+OF_SEARCHED_RUNS = {"parameters": "parameters.json", "trials": "trials.csv"}
+runs = {Run(*run): {} for run in params.runs}
+for wanted, names in ((params.runs, OF_EVERY_RUN), (params.tuned, OF_SEARCHED_RUNS)):
+    for kind, name in names.items():
+        for run, path in files_of_runs(files.models, wanted, name).items():
+            runs[run][kind] = path
 
 with job(snakemake.log[0], f"track {snakemake.wildcards.dataset}"):
     campaign = Campaign(

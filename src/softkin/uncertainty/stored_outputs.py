@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 
 from softkin.core.bounds import bounds_levels, read_bounds
+from softkin.core.manifest import files_of_runs
 from softkin.core.run_archive import RunArchive, read_run_archive
 from softkin.core.runs import Run
 from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, VALIDATION, Array, Samples
@@ -145,8 +146,8 @@ def stored_outputs(files: Any, params: Any) -> StoredOutputs:
     """The stored outputs named by the inputs `files` and the `params` of a rule for intervals."""
     return StoredOutputs(
         files.table,
-        predictions=dict(zip([Run(*run) for run in params.runs], files.predictions, strict=True)),
-        quantiles=dict(zip([Run(*run) for run in params.quantile_runs], files.quantiles, strict=True)),
+        predictions=files_of_runs(files.models, params.runs, "predictions.parquet"),
+        quantiles=files_of_runs(files.quantile_models, params.quantile_runs, "quantiles.parquet"),
         refits=next(iter(files.refits), None),
         shells=next(iter(files.shells), None),
         confidence_levels=params.confidence_levels,

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -7,6 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from softkin.core.manifest import MANIFEST, write_manifest
 from softkin.core.run_archive import RunArchive
 from softkin.core.runs import Run
 from softkin.core.samples import SUBSETS, Samples
@@ -128,13 +130,26 @@ def test_new_rows_are_split_into_their_subsets(table: Path) -> None:
     assert parts["test"].shape == (2, 40)
 
 
-def test_a_rule_names_its_stored_outputs(table: Path, stored: Path) -> None:
-    files = {name: [stored / f"{name}.parquet"] for name in ("predictions", "quantiles")}
+def manifest_of(run: Run, file: Path, folder: Path) -> Path:
+    """The manifest of a model whose run has this file alone."""
+    place = folder / run.model / run.preset / file.name
+    place.parent.mkdir(parents=True)
+    shutil.copy(file, place)
+    write_manifest(folder / run.model / MANIFEST, [place])
+    return folder / run.model / MANIFEST
+
+
+def test_a_rule_names_its_stored_outputs(table: Path, stored: Path, tmp_path: Path) -> None:
+    regressor = Run("gb", "paper")
+    files = {
+        "models": [manifest_of(RUN, stored / "predictions.parquet", tmp_path / "models")],
+        "quantile_models": [manifest_of(regressor, stored / "quantiles.parquet", tmp_path / "quantiles")],
+    }
     files |= {name: [stored / f"{name}.npz"] for name in ("refits", "shells")}
-    params = SimpleNamespace(runs=[[*RUN]], quantile_runs=[["gb", "paper"]], confidence_levels=STORED_LEVELS)
+    params = SimpleNamespace(runs=[[*RUN]], quantile_runs=[[*regressor]], confidence_levels=STORED_LEVELS)
     outputs = stored_outputs(SimpleNamespace(table=table, **files), params)
     assert [run for run, _ in outputs.of(PointCalibration)] == [RUN]
-    assert [run for run, _ in outputs.of(QuantileCalibration)] == [Run("gb", "paper")]
+    assert [run for run, _ in outputs.of(QuantileCalibration)] == [regressor]
     assert all(list(outputs.of(kind)) for kind in (FoldCalibration, ShellCalibration))
     few = stored_outputs(SimpleNamespace(table=table, **files | {"refits": [], "shells": []}), params)
     assert not any(list(few.of(kind)) for kind in (FoldCalibration, ShellCalibration))
