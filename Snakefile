@@ -12,10 +12,6 @@ min_version("9.0")
 report: "workflow/report/workflow.rst"
 
 
-configfile: Path(workflow.basedir) / "config" / "config.yaml"
-configfile: Path(workflow.basedir) / "config" / "datasets.yaml"
-
-
 include: "workflow/rules/configuration.smk"
 include: "workflow/rules/one_run.smk"
 include: "workflow/rules/paths.smk"

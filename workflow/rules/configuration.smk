@@ -4,11 +4,12 @@ import sys
 
 from snakemake.exceptions import WorkflowError
 
+from softkin.cli.configuration import check
+from softkin.core.config_files import check_config_files
 from softkin.core.errors import SoftkinError
 from softkin.data.readers import READERS
 from softkin.data.reachability import out_of_reach, warning, with_stand_ins
 from softkin.data.split import has_standardised_norm
-from softkin.data.standins import STANDINS
 from softkin.models import MODELS
 from softkin.models.quantile import QUANTILE_MODELS
 from softkin.uncertainty.intervals import INTERVAL_METHODS
@@ -23,25 +24,25 @@ os.environ.update(OMP_NUM_THREADS="1")
 TOLD = "SOFTKIN_STAND_INS_OF"
 
 
-def check():
-    """Stop where the configuration cannot be used."""
-    from softkin.core.configuration import check_configuration
-
+def stopping(check, *arguments, **named):
+    """Make a check whose error ends the run with its message alone."""
     try:
-        check_configuration(
-            config,
-            Path(workflow.basedir) / "workflow" / "schemas" / "config.schema.yaml",
-            {
-                "models": MODELS,
-                "formats": READERS,
-                "interval_methods": INTERVAL_METHODS,
-                "quantile_models": QUANTILE_MODELS,
-                "regions": REGION_METHODS,
-                "standins": STANDINS,
-            },
-        )
+        check(*arguments, **named)
     except SoftkinError as error:
         raise WorkflowError(str(error)) from None
+
+
+DEFAULTS = [
+    Path(workflow.basedir) / "config" / name
+    for name in ("config.yaml", "datasets.yaml")
+]
+# Before Snakemake reads them: it does not name the line of a mistake.
+if workflow.is_main_process:
+    stopping(check_config_files, DEFAULTS)
+
+
+configfile: DEFAULTS[0]
+configfile: DEFAULTS[1]
 
 
 def to_be_replaced():
@@ -57,7 +58,13 @@ def to_be_replaced():
 
 
 if workflow.is_main_process:
-    check()
+    stopping(
+        check,
+        config,
+        schema=Path(workflow.basedir) / "workflow" / "schemas" / "config.schema.yaml",
+        files=workflow.configfiles,
+        environment=os.environ,
+    )
     os.environ[TOLD] = ",".join(to_be_replaced())
 
 

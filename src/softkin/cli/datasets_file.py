@@ -53,7 +53,8 @@ def read_key(text: str, path: Path, key: str, kind: type) -> Any:
     try:
         value = yaml.safe_load(text)[key]
     except (yaml.YAMLError, TypeError, KeyError) as error:
-        raise ConfigError(f"no YAML with the key `{key}`: {error}", where=path, fix="correct the file") from error
+        reason = " ".join(str(error).split())
+        raise ConfigError(f"no YAML with the key `{key}`: {reason}", where=path, fix="correct the file") from error
     if not isinstance(value, kind):
         raise ConfigError(f"`{key}` is no {kind.__name__}", where=path, fix="correct the file")
     return value

@@ -37,11 +37,14 @@ def guess_entry(path: Path, title: str, file: str) -> tuple[dict[str, Any], list
     Raises:
         DataError: the file cannot be read, or its columns do not tell which are positions and commands.
     """
-    table = table_file.open_table(path)
-    positions, dimensions = _positions(table.names, path)
-    kinds = {name: _kind(name) for name in table.names if name not in positions}
-    commands, reasons = _commands(kinds, table.names, path)
-    values, _ = table.read([table.names.index(name) for name in positions], [])
+    try:
+        table = table_file.open_table(path)
+        positions, dimensions = _positions(table.names, path)
+        kinds = {name: _kind(name) for name in table.names if name not in positions}
+        commands, reasons = _commands(kinds, table.names, path)
+        values, _ = table.read([table.names.index(name) for name in positions], [])
+    except DataError as error:
+        raise error if error.where == str(path) else error.within(str(path)) from error
     if not len(values):
         raise DataError("a header, but no row of numbers", where=path, fix="export the file again")
     unit, why_unit = _unit(positions, values, path)

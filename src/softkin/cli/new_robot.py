@@ -15,6 +15,7 @@ from pathlib import Path
 from softkin.cli.datasets_file import append_entry, entry_text, read_key
 from softkin.cli.guess_entry import guess_entry
 from softkin.core.errors import ConfigError, DataError, SoftkinError
+from softkin.data.entries import RESERVED
 from softkin.data.readers import table_file
 
 DATASETS = Path("config") / "datasets.yaml"
@@ -42,6 +43,10 @@ def show_and_write(file: str, name: str | None, write: bool) -> None:
     if not NAME.fullmatch(name):
         raise ConfigError(
             f"'{name}' is no name: a letter a-z, then a-z, 0-9, _", where="NAME", fix="choose another with --name"
+        )
+    if name in RESERVED:
+        raise ConfigError(
+            f"results/{name} is a folder of softkin's own", where="NAME", fix="choose another name with --name"
         )
     is_below = path.resolve().is_relative_to(Path.cwd())
     listed = path.resolve().relative_to(Path.cwd()).as_posix() if is_below else str(path.resolve())

@@ -19,6 +19,8 @@ TRAIN, VALIDATION, TEST, EXTRAPOLATION = SUBSETS = ("train", "validation", "test
 
 #: A coordinate whose range on `train` is at most this (mm) is constant: it says nothing about a model.
 CONSTANT_RANGE_MM = 1e-6
+#: Arithmetic on larger numbers overflows.
+MAX_MAGNITUDE = 1e100
 
 
 @dataclass(frozen=True, slots=True)

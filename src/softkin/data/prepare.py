@@ -12,12 +12,14 @@ import pooch
 
 from softkin.core.errors import DataError
 from softkin.core.files import write_json
-from softkin.core.samples import TRAIN, Samples, coordinate_columns, informative_coordinates
+from softkin.core.samples import CONSTANT_RANGE_MM, TRAIN, Samples, coordinate_columns, informative_coordinates
 from softkin.data.readers import READERS
 from softkin.data.table import content_hash, schema, to_table, write_table
 
 logger = logging.getLogger("softkin")
 
+#: Fewer cannot be split into folds and shells of `train`.
+MIN_DISTINCT_COMMANDS = 5
 #: Positions that range over less or more than this are probably in another unit than the entry says.
 PLAUSIBLE_MM = (1.0, 10_000.0)
 MM_PER_UNIT = {"m": 1000.0, "cm": 10.0, "mm": 1.0, "in": 25.4}
@@ -58,6 +60,7 @@ def prepare(
     if clean is not None:
         samples, removed = clean(samples)
         logger.info("cleaned train: %s", ", ".join(f"{count} {what}" for what, count in removed.items()))
+    _check_movement(samples[TRAIN], f"dataset '{dataset}', file {source['file']}, `train`")
     _warn_of_implausible_range(samples[TRAIN], source, f"dataset '{dataset}', file {source['file']}")
     frame = to_table(samples)
     n_commands, n_markers = samples[TRAIN].commands.shape[1], samples[TRAIN].positions.shape[1] // 3
@@ -91,6 +94,23 @@ def _check_sizes(sizes: Mapping[str, int], source: Mapping[str, Any], where: str
                 where=f"{where}, subset {subset}",
                 fix="correct `rows` of the entry in config/datasets.yaml, or the file",
             )
+
+
+def _check_movement(train: Samples, where: str) -> None:
+    """A robot that stands still, or is told one thing alone, has no kinematics."""
+    if not informative_coordinates(train.positions).any():
+        raise DataError(
+            f"the positions never move: all range over at most {CONSTANT_RANGE_MM:g} mm",
+            where=where,
+            fix="check `positions` and `position_unit` of the entry, or record poses that differ",
+        )
+    n_distinct = len(np.unique(train.commands, axis=0))
+    if n_distinct < MIN_DISTINCT_COMMANDS:
+        raise DataError(
+            f"{n_distinct} distinct command{'s' * (n_distinct != 1)}, of at least {MIN_DISTINCT_COMMANDS}",
+            where=where,
+            fix="check `commands` of the entry, or record more distinct commands",
+        )
 
 
 def _in_mm(rows: Samples, max_rows: int | None, unit: str) -> Samples:

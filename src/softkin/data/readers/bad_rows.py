@@ -69,15 +69,18 @@ def _problem_of_cell(cell: str, mark: str) -> tuple[str, str] | None:
     if NUMBER.fullmatch(cell) and _OTHER_MARK[mark] not in cell:
         if math.isfinite(float(cell.replace(",", "."))):
             return None
-        return f"too large a number: '{cell}'", "correct the value or delete the row"
+        return f"too large a number: '{cell[:40]}'", "correct the value or delete the row"
     if not cell:
         return "no value", "fill the cell or delete the row"
     if cell.lower().lstrip("+-") in _NOT_FINITE:
         return f"no finite number: '{cell}'", "fill the cell or delete the row"
     if NUMBER.fullmatch(cell):
-        return f"'{cell}', where other numbers have decimal {_MARKS[mark]}", "write all numbers with one decimal mark"
+        return (
+            f"'{cell[:40]}', where other numbers have decimal {_MARKS[mark]}",
+            "write all numbers with one decimal mark",
+        )
     if THOUSANDS.fullmatch(cell):
-        return f"a separator of thousands: '{cell}'", "write numbers without separators of thousands"
+        return f"a separator of thousands: '{cell[:40]}'", "write numbers without separators of thousands"
     return f"no number: '{cell[:40]}'", "correct the cell, or leave the column out of the entry"
 
 

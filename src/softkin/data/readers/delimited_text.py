@@ -160,6 +160,8 @@ def open_text(path: Path, delimiter: str | None = None) -> DelimitedText:
             where=f"line {above + 1}",
             fix="write a row with the names of the columns above it",
         )
+    if is_whole and len(list(_rows(iter(sample), delimiter))) < 2:
+        raise DataError("a header, but no row of numbers", fix="export the file again")
     return DelimitedText(path, encoding, delimiter, above, names)
 
 

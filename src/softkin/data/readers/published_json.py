@@ -14,7 +14,8 @@ from typing import Any
 import numpy as np
 
 from softkin.core.errors import DataError
-from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, VALIDATION, Array, Samples
+from softkin.core.samples import EXTRAPOLATION, MAX_MAGNITUDE, TEST, TRAIN, VALIDATION, Array, Samples
+from softkin.core.strict_json import NotStrictJson, parse_json
 
 SUBSET_KEYS = {TRAIN: "train", VALIDATION: "val", TEST: "test", EXTRAPOLATION: "ext"}
 
@@ -35,8 +36,10 @@ def read(path: str | Path, *, dataset: str, source: Mapping[str, Any]) -> dict[s
         )
 
     try:
-        content = json.loads(Path(path).read_text(encoding="utf-8"))
-    except (json.JSONDecodeError, UnicodeDecodeError) as error:
+        content = parse_json(Path(path).read_text(encoding="utf-8"), any_number=True)
+    except NotStrictJson as error:
+        raise fail(str(error)) from error
+    except (OSError, UnicodeDecodeError) as error:
         raise fail(f"not JSON: {error}") from error
     if not isinstance(content, dict):
         raise fail(f"expected an object with the keys {', '.join(SUBSET_KEYS.values())}")
@@ -74,7 +77,9 @@ def _problem(value: Any, shape: tuple[int, ...]) -> str | None:
     if not shape:
         if isinstance(value, bool) or not isinstance(value, (int, float)):
             return f"expected a number, not {json.dumps(value)[:40]}"
-        return None if math.isfinite(value) else f"not finite: {value}"
+        if not math.isfinite(value):
+            return f"not finite: {value}"
+        return None if abs(value) <= MAX_MAGNITUDE else f"too large a number: {value:g}"
     if not isinstance(value, list) or len(value) != shape[0]:
         size = f"{len(value)} values" if isinstance(value, list) else json.dumps(value)[:40]
         return f"wrong shape: expected {shape[0]} values, not {size}"

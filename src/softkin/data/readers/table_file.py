@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from softkin.core.errors import DataError
-from softkin.core.samples import EXTRAPOLATION, SUBSETS, TRAIN, VALIDATION, Array, Samples
+from softkin.core.samples import EXTRAPOLATION, MAX_MAGNITUDE, SUBSETS, TRAIN, VALIDATION, Array, Samples
 from softkin.data import split
 from softkin.data.readers import columns, delimited_text, parquet_columns
 from softkin.data.readers.delimited_text import DelimitedText
@@ -27,8 +27,6 @@ Table = DelimitedText | ParquetColumns
 MIN_ROWS = dict.fromkeys(SUBSETS, 2) | {TRAIN: 20}
 #: Split conformal prediction at 95 % needs 19 calibration rows.
 FEW_CALIBRATION_ROWS = 19
-#: Arithmetic on larger numbers overflows.
-MAX_MAGNITUDE = 1e100
 #: A marker's range this many times that of the next narrower suggests that they are in different units: along an arm
 #: ranges grow gradually.
 SUSPICIOUS_GAP = 100.0

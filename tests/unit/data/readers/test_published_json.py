@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from softkin.core.errors import DataError
-from softkin.core.samples import SUBSETS, Samples
+from softkin.core.samples import MAX_MAGNITUDE, SUBSETS, Samples
 from softkin.data.readers.published_json import read
 from tests.conftest import four_subsets, published_json
 
@@ -61,7 +61,7 @@ def test_what_is_no_json_object_is_an_error(tmp_path: Path, content: str) -> Non
         parse(tmp_path / "raw.json", content)
 
 
-finite = st.floats(allow_nan=False, allow_infinity=False)
+finite = st.floats(-MAX_MAGNITUDE, MAX_MAGNITUDE)
 
 
 @given(arrays(float, (3, 2), elements=finite), arrays(float, (3, 3), elements=finite))

@@ -1,0 +1,54 @@
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+from softkin.data.entries import RESERVED, problems_of_entries
+from tests.conftest import HOUSE
+
+SOURCES = yaml.safe_load((HOUSE / "config" / "datasets.yaml").read_text())["sources"]
+OWN: dict[str, Any] = {"title": "Arm", "format": "table_file", "file": "arm.csv", "position_unit": "mm"}
+OWN |= {"commands": ["u1"], "positions": ["x", "y", "z"], "split": {"method": "random"}}
+
+
+def problems(datasets: list[str], **entries: Any) -> list[str]:
+    return problems_of_entries({"datasets": datasets, "sources": SOURCES | entries})
+
+
+def test_the_shipped_entries_have_no_problem() -> None:
+    assert problems(list(SOURCES)) == []
+
+
+def test_the_file_of_a_robot_is_looked_for_only_where_it_is_run(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert problems(["finger"], arm=OWN) == []
+    assert "there is no file arm.csv" in problems(["arm"], arm=OWN)[0]
+    (tmp_path / "arm.csv").touch()
+    assert problems(["arm"], arm=OWN) == []
+
+
+def test_a_pattern_and_a_base_are_accepted() -> None:
+    entry = OWN | {"commands": "u[0-9]+", "base": {"origin": [None, 0, -20.5], "axis": [0, 0, -1]}}
+    assert problems(["finger"], arm=entry) == []
+
+
+def test_names_of_softkins_own_folders_are_those_that_the_rules_exclude() -> None:
+    """A dataset's files are in results/<name>; `make demo` has a folder of its own there."""
+    rules = (HOUSE / "workflow" / "rules" / "paths.smk").read_text()
+    assert f"(?!(?:{'|'.join(name for name in RESERVED if name != 'demo')})/)" in rules
+    assert "results/demo" in (HOUSE / "Makefile").read_text()
+
+
+def test_all_problems_of_an_entry_are_told() -> None:
+    found = problems(["finger"], tables=OWN | {"title": "", "commands": "u[", "n_markers": 4})
+    assert [line.partition(": ")[0] for line in found] == [
+        "sources.tables",
+        "sources.tables.title",
+        "sources.tables.commands",
+        "sources.tables.n_markers",
+    ]
