@@ -9,7 +9,7 @@ export OMP_NUM_THREADS := 1
 .PHONY: run demo unlock new-robot test test-workflow test-others test-run lint ui store report gallery numbers results-page
 .PHONY: snakemake-report campaigns campaign-slurm coverage standins timings benchmark benchmark-large benchmark-pruning benchmark-shells
 .PHONY: benchmark-figures benchmark-commands benchmark-many-robots
-.PHONY: environment clean ui-screenshot
+.PHONY: environment clean ui-screenshot bad-inputs-page
 
 run: .venv/installed
 	$(BIN)/snakemake --cores $(CORES)
@@ -125,6 +125,10 @@ numbers: .venv/installed
 # made here alone on the machine, from nothing.
 timings: .venv/installed
 	$(BIN)/python -m tools.timings
+
+# docs/bad_inputs.md: what softkin answers to each bad input of the tests.
+bad-inputs-page: .venv/installed-dev
+	$(BIN)/python -m tools.bad_inputs_page
 
 # docs/results.md, its gallery with it, from a finished run of the default configuration.
 results-page: .venv/installed
