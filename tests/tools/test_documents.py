@@ -108,7 +108,7 @@ def test_errors_of_the_readme_are_those_that_are_printed(tmp_path: Path, monkeyp
                 provoke(tmp_path)
             assert text in str(caught.value)
             assert caught.value.fix
-    assert quoted()[0] in warning(["finger"])
+    assert quoted()[0] in warning({"finger": []})
     assert quoted()[6] in inspect.getsource(snakemake.exceptions)
 
 

@@ -46,9 +46,9 @@ configfile: DEFAULTS[1]
 
 
 def to_be_replaced():
-    """The datasets that cannot be had now, where stand-ins are to take their place."""
+    """The datasets that cannot be had now, where stand-ins are to take their place, and what their sources answer."""
     if config["when_unreachable"] != "simulate":
-        return []
+        return {}
     return out_of_reach(
         config["datasets"],
         config["sources"],
@@ -57,6 +57,8 @@ def to_be_replaced():
     )
 
 
+# Why, which the main process alone knows, and alone says.
+REPLACED = {}
 if workflow.is_main_process:
     stopping(
         check,
@@ -65,7 +67,8 @@ if workflow.is_main_process:
         files=workflow.configfiles,
         environment=os.environ,
     )
-    os.environ[TOLD] = ",".join(to_be_replaced())
+    REPLACED = to_be_replaced()
+    os.environ[TOLD] = ",".join(REPLACED)
 
 
 envvars:
@@ -120,8 +123,8 @@ def tracking_uri():
 
 def warn_of_stand_ins():
     """Print which datasets are stand-ins, in colour on a terminal: nobody may take a simulated robot for the real one."""
-    if STANDING_IN:
-        text = warning(STANDING_IN)
+    if REPLACED:
+        text = warning(REPLACED)
         is_terminal = sys.stderr.isatty()
         print(
             f"\033[1;33m{text}\033[0m" if is_terminal else text,

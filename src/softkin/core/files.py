@@ -40,6 +40,12 @@ def read_json(path: str | os.PathLike[str]) -> Any:
     return json.loads(Path(path).read_text(encoding="utf-8"))
 
 
+def file_sha256(path: str | os.PathLike[str]) -> str:
+    """SHA-256 (hex) of the content of one file, read piece by piece."""
+    with Path(path).open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
 def sha256_of(paths: Iterable[str | Path]) -> str:
     """SHA-256 (hex) over the contents of `paths`, each with its file name and size, in that order."""
     digest = hashlib.sha256()

@@ -8,10 +8,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pooch
 
 from softkin.core.errors import DataError
-from softkin.core.files import write_json
+from softkin.core.files import file_sha256, write_json
 from softkin.core.samples import CONSTANT_RANGE_MM, TRAIN, Samples, coordinate_columns, informative_coordinates
 from softkin.data.readers import READERS
 from softkin.data.table import content_hash, schema, to_table, write_table
@@ -73,7 +72,7 @@ def prepare(
             "dataset": dataset,
             "title": source["title"],
             "origin": origin,
-            "sha256": source.get("sha256") or pooch.file_hash(str(raw), alg="sha256"),
+            "sha256": source.get("sha256") or file_sha256(raw),
             "n_commands": n_commands,
             "n_markers": n_markers,
             "rows": {subset: len(rows) for subset, rows in samples.items()},

@@ -2,22 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
-from urllib.parse import urlparse
 
 from softkin.core.errors import RetrievalError
 
-PROBE_SECONDS = 4.0
 SUFFIX = "_standin"
 #: Keys of an entry that are about the published data only.
 PUBLISHED_ONLY = ("urls", "sha256", "licence", "citation", "paper_table", "paper_params", "notes", "clean")
-
-
-def is_reachable(entry: Mapping[str, Any], mirror: str | None) -> bool:
-    """Whether the mirror has the file or one of its URLs answers; nothing is downloaded."""
-    return any(_answers(place) for place in _places(entry, mirror))
 
 
 def stand_in_entry(entry: Mapping[str, Any]) -> dict[str, Any]:
@@ -39,16 +33,22 @@ def out_of_reach(
     *,
     mirror: str | None,
     retrieved: Mapping[str, Path],
-) -> list[str]:
-    """Which `datasets` cannot be had now, and have a stand-in.
+) -> dict[str, list[str]]:
+    """Which `datasets` cannot be had now, and have a stand-in: what each of their sources answers.
 
     A dataset that was `retrieved` before (dataset -> file) can be had, and so can one without `standin` in its entry.
     """
-    return [
-        name
-        for name in datasets
-        if "standin" in sources[name] and not retrieved[name].exists() and not is_reachable(sources[name], mirror)
-    ]
+    asked = [name for name in datasets if "standin" in sources[name] and not retrieved[name].exists()]
+    if not asked:
+        return {}
+    from softkin.data.retrieve import why_out_of_reach  # takes a third of a second, which each job would pay
+
+    def why(name: str) -> list[str]:
+        return why_out_of_reach(file=sources[name]["file"], urls=sources[name].get("urls", ()), mirror=mirror)
+
+    # Each waits for servers, not for the processor.
+    with ThreadPoolExecutor(len(asked)) as pool:
+        return {name: answers for name, answers in zip(asked, pool.map(why, asked), strict=True) if answers}
 
 
 def with_stand_ins(
@@ -60,30 +60,16 @@ def with_stand_ins(
     return [name + SUFFIX if name in replaced else name for name in datasets], entries
 
 
-def warning(replaced: Iterable[str]) -> str:
-    """The warning that stand-ins take the place of the datasets `replaced`, and how to get the published data."""
+def warning(replaced: Mapping[str, Sequence[str]]) -> str:
+    """The warning that stand-ins take the place of the datasets `replaced` (dataset -> what its sources answer), and
+    how to get the published data.
+    """
+    reasons = [f"\n  {name}: {answer}" for name, answers in replaced.items() for answer in answers]
     error = RetrievalError(
         f"{', '.join(replaced)} cannot be reached. Robots simulated by softkin take their place, as <name>{SUFFIX}; "
-        "they are not the published data, and nothing is compared with the paper.",
+        f"they are not the published data, and nothing is compared with the paper.{''.join(reasons)}",
         where="STAND-INS",
         fix="put the published files into a folder and name it in SOFTKIN_DATA_MIRROR, or run where their authors' "
         "repository can be reached; the next run uses them",
     )
     return str(error)
-
-
-def _places(entry: Mapping[str, Any], mirror: str | None) -> Iterator[str]:
-    if mirror:
-        yield f"{mirror.rstrip('/')}/{entry['file']}"
-    yield from entry.get("urls", ())
-
-
-def _answers(place: str) -> bool:
-    if urlparse(place).scheme not in ("http", "https"):
-        return Path(place).is_file()
-    import requests  # takes a fifth of a second, which each job on a cluster would pay
-
-    try:
-        return requests.head(place, timeout=PROBE_SECONDS, allow_redirects=True).ok
-    except requests.RequestException:
-        return False

@@ -6,18 +6,20 @@ from __future__ import annotations
 
 import logging
 import shutil
-import sys
+import time
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from urllib.parse import urlparse
+from urllib.parse import urlsplit
+from urllib.request import url2pathname
 
-import pooch
-import requests
 from tenacity import RetryError, Retrying, retry_if_exception, stop_after_attempt, wait_exponential
 
 from softkin.core.errors import RetrievalError
-from softkin.core.files import replacing
+from softkin.core.files import file_sha256, replacing
+from softkin.core.urls import without_credentials
+from softkin.data.download import CHUNK_BYTES, PATIENT, Patience, Refused, may_recover, opened, reason
 
 logger = logging.getLogger("softkin")
 
@@ -27,12 +29,12 @@ class WrongHash(Exception):
 
 
 @dataclass(frozen=True, slots=True)
-class Patience:
-    """How long a source is waited for: seconds of a request, attempts, and the first of the doubling pauses (s)."""
+class Source:
+    """A place that may have a file: the path or URL, how it is shown, and how its chunks are opened."""
 
-    timeout_seconds: float = 30.0
-    attempts: int = 4
-    backoff_seconds: float = 1.0
+    place: str
+    shown: str
+    opened: Callable[[], AbstractContextManager[Iterator[bytes]]]
 
 
 def retrieve(
@@ -43,7 +45,7 @@ def retrieve(
     sha256: str,
     destination: str | Path,
     mirror: str | None = None,
-    patience: Patience = Patience(),
+    patience: Patience = PATIENT,
 ) -> str:
     """Put the registered file of a published dataset in place, and return the source that it came from.
 
@@ -54,30 +56,26 @@ def retrieve(
     Parameters:
         dataset: name of the dataset.
         file: name of the file, in the mirror and in messages.
-        urls: where to download it.
+        urls: where to download it: https, or http on this machine.
         sha256: of its content, hexadecimal; anything else is refused.
         destination: path to put it at.
-        mirror: a folder, or a URL prefix, that holds `file`; None where there is none.
-        patience: time-out, attempts and back-off.
+        mirror: a folder, its file:// URL, or a URL prefix, that holds `file`; None where there is none.
+        patience: limits of time and size, attempts and back-off.
 
     Raises:
         RetrievalError: no source gave the file; says what each of them answered.
     """
-    answers = []
-    for source, fetch in _sources(file, urls, mirror, patience.timeout_seconds):
-        try:
-            for attempt in _attempts(source, patience):
-                with attempt, replacing(destination) as temporary:
-                    fetch(temporary)
-                    _check(temporary, sha256)
-        except RetryError as error:
-            answers.append(f"{source}: {_reason(error.last_attempt.exception())} ({patience.attempts} attempts)")
-        except (WrongHash, OSError) as error:
-            answers.append(f"{source}: {_reason(error)}")
-        else:
-            logger.info("retrieved %s (%d bytes)", source, Path(destination).stat().st_size)
-            return source
-        logger.warning("%s", answers[-1])
+
+    def put_in_place(chunks: Iterator[bytes]) -> None:
+        with replacing(destination) as temporary:
+            with temporary.open("wb") as to:
+                to.writelines(chunks)
+            _check(temporary, sha256)
+
+    source, answers = _first(file, urls, mirror, patience, put_in_place, logging.WARNING)
+    if source is not None:
+        logger.info("retrieved %s (%d bytes)", source, Path(destination).stat().st_size)
+        return source
     raise RetrievalError(
         "\n  ".join([f"no source gave {file}", *answers]),
         where=f"dataset '{dataset}'",
@@ -86,15 +84,54 @@ def retrieve(
     )
 
 
-def _attempts(source: str, patience: Patience) -> Retrying:
+def why_out_of_reach(*, file: str, urls: Sequence[str], mirror: str | None, patience: Patience = PATIENT) -> list[str]:
+    """What each source of a published file answers, where none of them has it now; nothing where one has.
+
+    Sources are opened as `retrieve` opens them, with the same retries, and the first bytes read; nothing is kept.
+    """
+    source, answers = _first(file, urls, mirror, patience, lambda chunks: next(chunks, None), logging.DEBUG)
+    return [] if source is not None else answers or ["its entry names no URL, and there is no mirror"]
+
+
+def _first(
+    file: str,
+    urls: Sequence[str],
+    mirror: str | None,
+    patience: Patience,
+    use: Callable[[Iterator[bytes]], object],
+    level: int,
+) -> tuple[str | None, list[str]]:
+    """The first source, as it is shown, that can be opened and whose chunks are of `use`, and what those before it
+    answered. Failures are logged at `level`.
+    """
+    answers: list[str] = []
+    ends = time.monotonic() + patience.whole_seconds
+    for source in _sources(file, urls, mirror, patience, ends):
+        try:
+            for attempt in _attempts(source, patience, level):
+                with attempt, source.opened() as chunks:
+                    use(chunks)
+        except RetryError as error:
+            why = reason(error.last_attempt.exception(), source.place)
+            answers.append(f"{source.shown}: {why} ({patience.attempts} attempts)")
+        except (WrongHash, Refused, ValueError, OSError) as error:
+            answers.append(f"{source.shown}: {reason(error, source.place)}")
+        else:
+            return source.shown, answers
+        logger.log(level, "%s", answers[-1])
+    return None, answers
+
+
+def _attempts(source: Source, patience: Patience, level: int) -> Retrying:
     return Retrying(
         stop=stop_after_attempt(patience.attempts),
         wait=wait_exponential(multiplier=patience.backoff_seconds, max=30),
-        retry=retry_if_exception(_may_recover),
-        before_sleep=lambda state: logger.warning(
+        retry=retry_if_exception(may_recover),
+        before_sleep=lambda state: logger.log(
+            level,
             "%s failed (%s); trying again in %.1f s",
-            source,
-            _reason(state.outcome.exception() if state.outcome else None),
+            source.shown,
+            reason(state.outcome.exception() if state.outcome else None, source.place),
             state.next_action.sleep if state.next_action else 0.0,
         ),
     )
@@ -108,12 +145,12 @@ def take_own_file(*, dataset: str, file: str, destination: str | Path, sha256: s
     """
     try:
         with replacing(destination) as temporary:
-            _copy(Path(file), temporary)
+            shutil.copyfile(file, temporary)
             if sha256 is not None:
                 _check(temporary, sha256)
     except (WrongHash, OSError) as error:
         raise RetrievalError(
-            _reason(error),
+            reason(error, file),
             where=f"dataset '{dataset}', file {file}",
             fix="correct `file` or `sha256` of its entry in config/datasets.yaml; a relative path starts in the "
             "working directory of the run",
@@ -121,53 +158,31 @@ def take_own_file(*, dataset: str, file: str, destination: str | Path, sha256: s
     logger.info("copied %s (%d bytes)", file, Path(destination).stat().st_size)
 
 
-def _sources(
-    file: str, urls: Sequence[str], mirror: str | None, timeout: float
-) -> Iterator[tuple[str, Callable[[Path], None]]]:
-    if mirror and urlparse(mirror).scheme in ("http", "https"):
+def _sources(file: str, urls: Sequence[str], mirror: str | None, patience: Patience, ends: float) -> Iterator[Source]:
+    if mirror and urlsplit(mirror).scheme in ("http", "https"):
         urls = [f"{mirror.rstrip('/')}/{file}", *urls]
     elif mirror:
-        path = Path(mirror.removeprefix("file://")) / file
-        yield f"mirror {path}", lambda temporary: _copy(path, temporary)
+        path = folder_of(mirror) / file
+        yield Source(str(path), f"mirror {path}", lambda: _opened_file(path))
     for url in urls:
-        yield url, lambda temporary, url=url: _download(url, temporary, timeout)  # type: ignore[misc]
+        yield Source(url, without_credentials(url), lambda url=url: opened(url, patience, ends))  # type: ignore[misc]
 
 
-def _copy(source: Path, temporary: Path) -> None:
-    shutil.copyfile(source, temporary)
+def folder_of(mirror: str) -> Path:
+    """The folder that a `mirror` is, given as its path or as a file:// URL."""
+    return Path(url2pathname(urlsplit(mirror).path) if mirror.startswith("file://") else mirror)
 
 
-def _download(url: str, temporary: Path, timeout: float) -> None:
-    logger.info("downloading %s", url)
-    pooch.HTTPDownloader(progressbar=sys.stderr.isatty(), timeout=timeout)(url, str(temporary), None)
+@contextmanager
+def _opened_file(path: Path) -> Iterator[Iterator[bytes]]:
+    with path.open("rb") as file:
+        yield iter(lambda: file.read(CHUNK_BYTES), b"")
 
 
 def _check(path: Path, sha256: str) -> None:
-    actual = pooch.file_hash(str(path), alg="sha256")
+    actual = file_sha256(path)
     if actual != sha256:
         raise WrongHash(
             f"wrong file: sha256 is {actual}, expected {sha256} ({path.stat().st_size} bytes came; "
             "the file was cut off or has changed at its source); it was not kept"
         )
-
-
-def _may_recover(error: BaseException) -> bool:
-    if isinstance(error, requests.HTTPError):
-        return error.response is not None and (error.response.status_code == 429 or error.response.status_code >= 500)
-    return isinstance(error, requests.RequestException)
-
-
-def _reason(error: BaseException | None) -> str:
-    match error:
-        case requests.HTTPError() if error.response is not None:
-            return f"the server answered {error.response.status_code} {error.response.reason}"
-        case requests.Timeout():
-            return "timed out"
-        case requests.exceptions.ChunkedEncodingError():
-            return "the transfer broke off: the file is truncated"
-        case requests.ConnectionError():
-            return "connection refused or lost"
-        case FileNotFoundError():
-            return "no such file"
-        case _:
-            return str(error) or type(error).__name__

@@ -1,16 +1,11 @@
 from __future__ import annotations
 
-import http.server
-import threading
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import pytest
-
 from softkin.core.files import write_json
 from softkin.core.samples import SUBSETS
-from softkin.data.reachability import is_reachable, out_of_reach, stand_in_entry, warning, with_stand_ins
+from softkin.data.reachability import out_of_reach, stand_in_entry, warning, with_stand_ins
 from softkin.data.readers import READERS
 
 ROWS = {"train": 20, "validation": 4, "test": 4, "extrapolation": 8}
@@ -28,46 +23,21 @@ ENTRY: dict[str, Any] = {
 }
 
 
-@pytest.fixture(scope="module")
-def server() -> Iterator[str]:
-    class Handler(http.server.BaseHTTPRequestHandler):
-        def do_HEAD(self) -> None:
-            self.send_response(200 if self.path.endswith("/there/FINGER.json") else 404)
-            self.end_headers()
-
-        def log_message(self, *_: object) -> None:
-            pass
-
-    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler) as running:
-        threading.Thread(target=running.serve_forever, daemon=True).start()
-        yield f"http://127.0.0.1:{running.server_port}"
-        running.shutdown()
-
-
-def test_a_mirror_or_any_url_will_do(server: str, tmp_path: Path) -> None:
-    nowhere = ENTRY | {"urls": [f"{server}/gone/FINGER.json", "http://127.0.0.1:9/FINGER.json"]}
-    assert not is_reachable(nowhere, None)
-    assert not is_reachable(nowhere, str(tmp_path))
-    assert is_reachable(ENTRY | {"urls": [*nowhere["urls"], f"{server}/there/FINGER.json"]}, None)
-    assert is_reachable(nowhere, f"{server}/there")
-    (tmp_path / "FINGER.json").write_text("{}")
-    assert is_reachable(nowhere, str(tmp_path))
-
-
 def test_an_unreachable_dataset_is_replaced_under_a_name_of_its_own(tmp_path: Path) -> None:
     (tmp_path / "retrieved").touch()
     sources = {name: ENTRY | {"urls": []} for name in ("finger", "before", "elsewhere")}
     sources["plain"] = {key: value for key, value in ENTRY.items() if key != "standin"} | {"urls": []}
     retrieved = {name: tmp_path / ("retrieved" if name == "before" else "no") for name in sources}
     wanted = ["finger", "before", "plain"]
-    assert out_of_reach(wanted, sources, mirror=None, retrieved=retrieved) == ["finger"]
-    assert out_of_reach(wanted, sources, mirror=str(tmp_path), retrieved=retrieved) == ["finger"]
+    assert list(out_of_reach(wanted, sources, mirror=None, retrieved=retrieved)) == ["finger"]
+    missing = out_of_reach(wanted, sources, mirror=str(tmp_path), retrieved=retrieved)
+    assert missing == {"finger": [f"mirror {tmp_path / 'FINGER.json'}: no such file"]}
     names, entries = with_stand_ins(wanted, sources, ["finger"])
     assert names == ["finger_standin", "before", "plain"]
     assert set(entries) == {*sources, "finger_standin"}
     assert sources["finger"]["title"] == ENTRY["title"]
     (tmp_path / "FINGER.json").write_text("{}")
-    assert out_of_reach(wanted, sources, mirror=str(tmp_path), retrieved=retrieved) == []
+    assert out_of_reach(wanted, sources, mirror=str(tmp_path), retrieved=retrieved) == {}
     assert with_stand_ins(wanted, sources, []) == (wanted, sources)
 
 
@@ -75,8 +45,13 @@ def test_a_stand_in_says_what_it_is_and_keeps_nothing_of_the_paper() -> None:
     entry = stand_in_entry(ENTRY | {"urls": [], "notes": {"test": "printed"}})
     assert "STAND-IN" in entry["title"]
     assert not {"urls", "sha256", "paper_table", "notes", "standin"} & set(entry)
-    text = warning(["finger"])
-    for part in ("finger", "not the published data", "SOFTKIN_DATA_MIRROR", "<name>_standin"):
+    text = warning({"finger": ["https://a.org: timed out"]})
+    for part in (
+        "finger: https://a.org: timed out",
+        "not the published data",
+        "SOFTKIN_DATA_MIRROR",
+        "<name>_standin",
+    ):
         assert part in text
 
 

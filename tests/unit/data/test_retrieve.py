@@ -2,67 +2,17 @@
 
 from __future__ import annotations
 
-import contextlib
-import hashlib
-import threading
-import time
-from collections.abc import Iterator
-from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+import re
 from pathlib import Path
 
 import pytest
 
 from softkin.core.errors import RetrievalError
-from softkin.data.retrieve import Patience, retrieve, take_own_file
+from softkin.data.download import Patience
+from softkin.data.retrieve import retrieve, take_own_file, why_out_of_reach
+from tests.unit.data.misbehaving import CONTENT, SHA256, Server
 
-CONTENT = b'{"train": {}}' * 5000
-SHA256 = hashlib.sha256(CONTENT).hexdigest()
-
-
-class Server(ThreadingHTTPServer):
-    daemon_threads = True
-
-    def __init__(self) -> None:
-        super().__init__(("127.0.0.1", 0), Handler)
-        self.requests: list[str] = []
-
-    def url(self, behaviour: str) -> str:
-        return f"http://127.0.0.1:{self.server_port}/{behaviour}/FINGER.json"
-
-
-class Handler(BaseHTTPRequestHandler):
-    server: Server
-
-    def do_GET(self) -> None:
-        behaviour = self.path.split("/")[1]
-        first = behaviour not in self.server.requests
-        self.server.requests.append(behaviour)
-        if behaviour == "missing":
-            return self.send_error(404)
-        if behaviour == "busy" or (behaviour == "busy-once" and first):
-            return self.send_error(503)
-        if behaviour == "slow":
-            time.sleep(2)
-        body = b"something else" if behaviour == "wrong" else CONTENT
-        self.send_response(200)
-        self.send_header("Content-Length", str(len(body)))
-        self.end_headers()
-        cut = behaviour == "truncated" or (behaviour == "truncated-once" and first)
-        with contextlib.suppress(OSError):  # the client has hung up: it timed out
-            self.wfile.write(body[: len(body) // 2] if cut else body)
-        return None
-
-    def log_message(self, *_: object) -> None:
-        pass
-
-
-@pytest.fixture
-def server() -> Iterator[Server]:
-    server = Server()
-    threading.Thread(target=server.serve_forever, args=(0.01,), daemon=True).start()
-    yield server
-    server.shutdown()
-    server.server_close()
+QUICK = Patience(timeout_seconds=0.5, attempts=2, backoff_seconds=0.01)
 
 
 def get(destination: Path, *urls: str, mirror: str | None = None) -> str:
@@ -73,7 +23,7 @@ def get(destination: Path, *urls: str, mirror: str | None = None) -> str:
         sha256=SHA256,
         destination=destination,
         mirror=mirror,
-        patience=Patience(timeout_seconds=0.5, attempts=2, backoff_seconds=0.01),
+        patience=QUICK,
     )
 
 
@@ -161,3 +111,60 @@ def test_a_file_of_ones_own_that_is_not_there_or_not_registered_is_an_error(
     for part in ("'arm'", says, "\n  fix: "):
         assert part in str(error.value)
     assert [path.name for path in tmp_path.iterdir()] == ["arm.csv"]
+
+
+@pytest.mark.parametrize("behaviour", ["good", "busy-once", "redirect", "packed"])
+def test_what_can_be_retrieved_is_not_out_of_reach(server: Server, tmp_path: Path, behaviour: str) -> None:
+    """The server refuses HEAD."""
+    asked = {"file": "FINGER.json", "urls": [server.url(behaviour)], "patience": QUICK}
+    assert why_out_of_reach(**asked, mirror=None) == []  # type: ignore[arg-type]
+    assert get(tmp_path / "raw", server.url(behaviour)) == server.url(behaviour)
+
+
+@pytest.mark.parametrize(
+    ("behaviour", "says"),
+    [
+        ("missing", "the server answered 404 Not Found"),
+        ("busy", r"the server answered 503 Service Unavailable \(2 attempts\)"),
+        ("slow", r"timed out.* \(2 attempts\)"),
+        ("redirect-file", "another scheme"),
+        ("announced", "99999999999 bytes are announced"),
+    ],
+)
+def test_what_is_out_of_reach_has_the_reason_that_retrieving_it_has(
+    server: Server, tmp_path: Path, behaviour: str, says: str
+) -> None:
+    (answer,) = why_out_of_reach(file="FINGER.json", urls=[server.url(behaviour)], mirror=None, patience=QUICK)
+    assert re.search(says, answer)
+    with pytest.raises(RetrievalError) as error:
+        get(tmp_path / "raw", server.url(behaviour))
+    assert answer in str(error.value)
+
+
+@pytest.mark.parametrize("form", ["{}", "file://{}", "file://localhost{}"])
+def test_a_folder_may_be_given_as_a_url(tmp_path: Path, form: str) -> None:
+    folder = tmp_path / "a mirror"
+    folder.mkdir()
+    (folder / "FINGER.json").write_bytes(CONTENT)
+    place = folder.as_uri().removeprefix("file://") if "file" in form else str(folder)
+    assert why_out_of_reach(file="FINGER.json", urls=[], mirror=form.format(place)) == []
+    assert get(tmp_path / "raw", mirror=form.format(place)) == f"mirror {folder / 'FINGER.json'}"
+
+
+def test_a_mirror_without_the_file_and_an_entry_without_urls_say_so(tmp_path: Path) -> None:
+    (answer,) = why_out_of_reach(file="FINGER.json", urls=[], mirror=str(tmp_path))
+    assert answer == f"mirror {tmp_path / 'FINGER.json'}: no such file"
+    assert why_out_of_reach(file="FINGER.json", urls=[], mirror=None) == [
+        "its entry names no URL, and there is no mirror"
+    ]
+
+
+def test_no_message_has_a_credential(server: Server, tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    caplog.set_level("DEBUG", "softkin")
+    urls = [server.url(name).replace("http://", "http://me:hunter22@") + "?token=1a2b3c" for name in ("busy", "good")]
+    assert "***" in get(tmp_path / "raw", *urls)
+    with pytest.raises(RetrievalError) as error:
+        get(tmp_path / "raw", urls[0])
+    assert server.authorisations[0] is not None
+    for secret in ("hunter22", "1a2b3c"):
+        assert secret not in str(error.value) + caplog.text
