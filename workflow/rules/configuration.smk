@@ -6,7 +6,9 @@ from snakemake.exceptions import WorkflowError
 
 from softkin.cli.configuration import check
 from softkin.core.config_files import check_config_files
+from softkin.core.credentials import hide_credentials, with_credentials
 from softkin.core.errors import SoftkinError
+from softkin.core.urls import without_credentials
 from softkin.data.readers import READERS
 from softkin.data.reachability import out_of_reach, warning, with_stand_ins
 from softkin.data.split import has_standardised_norm
@@ -49,17 +51,23 @@ def to_be_replaced():
     """The datasets that cannot be had now, where stand-ins are to take their place, and what their sources answer."""
     if config["when_unreachable"] != "simulate":
         return {}
+    mirror = os.environ.get("SOFTKIN_DATA_MIRROR") or config.get("data_mirror")
     return out_of_reach(
         config["datasets"],
         config["sources"],
-        mirror=os.environ.get("SOFTKIN_DATA_MIRROR") or config.get("data_mirror"),
+        mirror=mirror and with_credentials(mirror),
         retrieved={name: Path(f"results/{name}/raw") for name in config["datasets"]},
     )
 
 
+# Params of jobs are written to files, the configuration among them.
+if not workflow.is_main_process:
+    hide_credentials(config)
+
 # Why, which the main process alone knows, and alone says.
 REPLACED = {}
 if workflow.is_main_process:
+    stopping(hide_credentials, config)
     stopping(
         check,
         config,
@@ -117,8 +125,9 @@ def max_fit_rows(wildcards):
 
 
 def tracking_uri():
-    """Where the MLflow store is: MLFLOW_TRACKING_URI goes before the configuration."""
-    return os.environ.get("MLFLOW_TRACKING_URI") or config["tracking_uri"]
+    """Where the MLflow store is, as it is shown: MLFLOW_TRACKING_URI goes before the configuration."""
+    uri = os.environ.get("MLFLOW_TRACKING_URI") or config["tracking_uri"]
+    return without_credentials(uri)
 
 
 def warn_of_stand_ins():

@@ -2,6 +2,7 @@
 
 import os
 
+from softkin.core.credentials import with_credentials
 from softkin.core.files import write_json
 from softkin.core.job import job
 from softkin.data.readers.simulated import RECIPE
@@ -14,7 +15,10 @@ with job(snakemake.log[0], f"retrieve {dataset}"):
     if "robot" in source:
         write_json(snakemake.output[0], {key: source[key] for key in RECIPE})
     elif "urls" in source:
-        mirror = os.environ.get("SOFTKIN_DATA_MIRROR") or snakemake.params.mirror
-        retrieve(**place, urls=source["urls"], sha256=source["sha256"], mirror=mirror)
+        mirror = os.environ.get("SOFTKIN_DATA_MIRROR") or (
+            snakemake.params.mirror and with_credentials(snakemake.params.mirror)
+        )
+        urls = [with_credentials(url) for url in source["urls"]]
+        retrieve(**place, urls=urls, sha256=source["sha256"], mirror=mirror)
     else:
         take_own_file(**place, sha256=source.get("sha256"))

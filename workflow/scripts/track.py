@@ -1,5 +1,6 @@
 """Rule track: result files of one dataset -> MLflow."""
 
+from softkin.core.credentials import with_credentials
 from softkin.core.files import write_json
 from softkin.core.job import job
 from softkin.core.manifest import files_of_runs
@@ -7,6 +8,7 @@ from softkin.core.runs import Run
 from softkin.tracking import Campaign, locked, log_champion, log_dataset, log_intervals
 
 files, params = snakemake.input, snakemake.params
+tracking_uri = with_credentials(params.tracking_uri)
 OF_EVERY_RUN = {"model": "model.joblib", "predictions": "predictions.parquet", "fit": "fit.json"}
 OF_SEARCHED_RUNS = {"parameters": "parameters.json", "trials": "trials.csv"}
 runs = {Run(*run): {} for run in params.runs}
@@ -19,10 +21,10 @@ with job(snakemake.log[0], f"track {snakemake.wildcards.dataset}"):
     campaign = Campaign(
         name=params.campaign,
         seed=params.seed,
-        tracking_uri=params.tracking_uri,
+        tracking_uri=tracking_uri,
         caution=params.caution,
     )
-    with locked(params.tracking_uri, snakemake.wildcards.dataset):
+    with locked(tracking_uri, snakemake.wildcards.dataset):
         of_dataset = {"description": files.description, "data_card": files.data_card}
         logged = log_dataset(campaign, **of_dataset, point=files.point, figures=files.figures, runs=runs)
         n_intervals = log_intervals(

@@ -6,12 +6,15 @@ import logging
 import os
 import sys
 import time
+import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
+from types import TracebackType
 
 from softkin.core.clocks import used
+from softkin.core.credentials import hide_known
 from softkin.core.errors import SoftkinError
 
 logger = logging.getLogger("softkin")
@@ -20,6 +23,18 @@ logger = logging.getLogger("softkin")
 ON_A_SCREEN = "SOFTKIN_ON_A_SCREEN"
 #: The time of day with which lines on the terminal begin.
 CLOCK = "%H:%M:%S"
+
+
+class Discreet(logging.Formatter):
+    """A formatter that hides the credentials of the configuration, whoever names them."""
+
+    def format(self, record: logging.LogRecord) -> str:
+        """The text of a record."""
+        return hide_known(super().format(record))
+
+
+def _print_discreetly(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
+    sys.stderr.write(hide_known("".join(traceback.format_exception(kind, error, trace))))
 
 
 @contextmanager
@@ -33,10 +48,10 @@ def job(log: str, label: str) -> Iterator[None]:
     Path(log).parent.mkdir(parents=True, exist_ok=True)
     file = Path(log).open("w", encoding="utf-8")  # noqa: SIM115 (closed below, after the handlers that write to it)
     to_file = logging.StreamHandler(file)
-    to_file.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(message)s"))
+    to_file.setFormatter(Discreet("%(asctime)s %(levelname)s %(message)s"))
     to_terminal = logging.StreamHandler(sys.stderr)
     to_terminal.setLevel(logging.INFO)
-    to_terminal.setFormatter(logging.Formatter(f"%(asctime)s {label}: %(message)s", CLOCK))
+    to_terminal.setFormatter(Discreet(f"%(asctime)s {label}: %(message)s", CLOCK))
     screen = ON_A_SCREEN in os.environ
     logger.handlers = [to_file] if screen else [to_file, to_terminal]
     logger.setLevel(logging.DEBUG)
@@ -52,6 +67,7 @@ def job(log: str, label: str) -> Iterator[None]:
     except BaseException:
         logger.handlers = [to_file]
         logger.exception("the job stopped")
+        sys.excepthook = _print_discreetly
         raise
     finally:
         logger.handlers = [to_file]

@@ -7,6 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
+from softkin.core.credentials import with_credentials
 from softkin.core.errors import RetrievalError
 
 SUFFIX = "_standin"
@@ -44,7 +45,8 @@ def out_of_reach(
     from softkin.data.retrieve import why_out_of_reach  # takes a third of a second, which each job would pay
 
     def why(name: str) -> list[str]:
-        return why_out_of_reach(file=sources[name]["file"], urls=sources[name].get("urls", ()), mirror=mirror)
+        urls = [with_credentials(url) for url in sources[name].get("urls", ())]
+        return why_out_of_reach(file=sources[name]["file"], urls=urls, mirror=mirror)
 
     # Each waits for servers, not for the processor.
     with ThreadPoolExecutor(len(asked)) as pool:

@@ -21,6 +21,7 @@ from mlflow.exceptions import MlflowException
 
 from softkin.core.errors import StoreError
 from softkin.core.files import read_json
+from softkin.core.urls import without_credentials
 from softkin.data.audit.findings import LEAK
 from softkin.tracking.artifacts import artifacts_beside, move_locations
 
@@ -82,7 +83,7 @@ def create_store(tracking_uri: str) -> None:
             connection.close()
     else:
         MlflowClient(tracking_uri).search_experiments(max_results=1)
-    logger.info("the MLflow store is %s", tracking_uri)
+    logger.info("the MLflow store is %s", without_credentials(tracking_uri))
 
 
 def client_of(tracking_uri: str) -> MlflowClient:
@@ -98,7 +99,9 @@ def client_of(tracking_uri: str) -> MlflowClient:
         file = Path(tracking_uri.removeprefix(SQLITE))
         if not file.exists():
             raise StoreError(
-                "the MLflow store is gone", where=tracking_uri, fix="make it again from results/: make store"
+                "the MLflow store is gone",
+                where=without_credentials(tracking_uri),
+                fix="make it again from results/: make store",
             )
         move_locations(file)
     mlflow.set_tracking_uri(tracking_uri)

@@ -1,13 +1,16 @@
 from __future__ import annotations
 
+import json
 import logging
 import os
 import re
+import sys
 import time
 from pathlib import Path
 
 import pytest
 
+from softkin.core.credentials import KEPT
 from softkin.core.errors import SoftkinError
 from softkin.core.job import ON_A_SCREEN, job, stopwatch
 
@@ -66,3 +69,23 @@ def test_under_a_screen_everything_goes_to_the_log(
     assert "a library wrote this" in (tmp_path / "job.log").read_text()
     os.system("echo afterwards")
     assert capfd.readouterr().out == "afterwards\n"
+
+
+def test_credentials_stand_in_no_log_and_no_traceback(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    url = "http://me:hunter22@example.org/"
+    monkeypatch.setenv(KEPT, json.dumps({"http://***@example.org/": url}))
+    monkeypatch.setattr(sys, "excepthook", sys.__excepthook__)
+
+    def work() -> None:
+        logging.getLogger("softkin").info("the store is %s", url)
+        raise OSError(f"no connection to {url}")
+
+    with pytest.raises(OSError, match="example") as defect, job(str(tmp_path / "job.log"), "track"):
+        work()
+    sys.excepthook(defect.type, defect.value, defect.tb)
+    shown = (tmp_path / "job.log").read_text() + capsys.readouterr().err
+    assert shown.count("the store is http://***@example.org/") == 2
+    assert shown.count("OSError: no connection to http://***@example.org/") == 2
+    assert "hunter22" not in shown
