@@ -10,13 +10,14 @@ from typing import Any
 import yaml
 
 from softkin.core.errors import ConfigError
+from softkin.core.escaping import one_line
 from softkin.core.files import write_text
 
 
 def entry_text(name: str, entry: Mapping[str, Any], reasons: Sequence[str]) -> str:
     """The entry as a part of config/datasets.yaml, below its reasons as comments."""
     text = yaml.safe_dump({name: entry}, sort_keys=False, allow_unicode=True, default_flow_style=None, width=110)
-    lines = [f"# {' '.join(reason.split())}" for reason in reasons]
+    lines = [f"# {one_line(reason)}" for reason in reasons]
     return textwrap.indent("\n".join([*lines, text]), "  ")
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import pandas as pd
 
+from softkin.core.escaping import markdown_text
 from softkin.core.samples import EXTRAPOLATION, TEST
 from softkin.data.audit.findings import counted
 from softkin.reporting.tables.numbers import number_text, share_text
@@ -56,9 +57,9 @@ def model_card(
         caution: what the configuration says of its own numbers.
     """
     origin, percent = description["origin"], share_text(level, 0)
-    lines = [f"# {description['title']}", ""]
+    lines = [f"# {markdown_text(description['title'])}", ""]
     lines += [f"**{ORIGINS[origin]}**", ""] if origin in ORIGINS else []
-    lines += [f"**CAUTION**: {caution}", ""] if caution else []
+    lines += [f"**CAUTION**: {markdown_text(caution)}", ""] if caution else []
     commands = counted(description["n_commands"], "command")
     markers = counted(description["n_markers"], "marker")
     lines += [
@@ -77,7 +78,8 @@ def model_card(
     lines += ["", "## Guarantee", "", guarantee, EXTRAPOLATION_NOTES[bool(model.shells)], ""]
     findings = description["findings"]
     lines += ["## Data", "", _rows(description), ""]
-    lines += [f"- **{finding['severity']}**: {finding['sentence']} {finding['consequence']}" for finding in findings]
+    told = [(finding["severity"], f"{finding['sentence']} {finding['consequence']}") for finding in findings]
+    lines += [f"- **{severity}**: {markdown_text(text)}" for severity, text in told]
     lines += [] if findings else ["The audit has no finding."]
     return "\n".join([*lines, "", *_use(registered, description["n_commands"], level)])
 

@@ -13,6 +13,7 @@ import pandas as pd
 from mlflow.entities import Dataset, DatasetInput, InputTag
 
 from softkin import __version__
+from softkin.core.escaping import markdown_text
 from softkin.core.files import read_json, sha256_of
 from softkin.core.runs import Run
 from softkin.core.samples import EXTRAPOLATION, TEST
@@ -72,7 +73,7 @@ def log_dataset(
     described = read_description(description, data_card)
     scores = pd.read_csv(point)
     experiment = experiment_of(client, described["dataset"])
-    note = f"**{described['title']}**, {described['origin']}. *Views*, at the top right, has *{NAME}*."
+    note = f"**{markdown_text(described['title'])}**, {described['origin']}. *Views*, at the top right, has *{NAME}*."
     note += _findings_note(described) + caution_note(campaign)
     for tag, value in {NOTE: note, "origin": described["origin"], TAG: saved_view()}.items():
         client.set_experiment_tag(experiment, tag, value)
@@ -101,7 +102,8 @@ def _record(
     study = read_json(files["parameters"]) if "parameters" in files else {}
     metrics = _metrics(model_run.scores)
     errors = model_run.scores.set_index("subset")["euclidean_mean_mm"]
-    note = f"**{description['title']}**, {model}, {preset} preset. Mean marker error: {errors[TEST]:.4g} mm on test, "
+    note = f"**{markdown_text(description['title'])}**, {model}, {preset} preset. "
+    note += f"Mean marker error: {errors[TEST]:.4g} mm on test, "
     note += f"{errors[EXTRAPOLATION]:.4g} mm on extrapolation." + _findings_note(description) + caution_note(campaign)
     return Record(
         key=f"{campaign.name}/{description['dataset']}/{model}/{preset}",
@@ -169,7 +171,8 @@ def _dataset_input(description: Mapping[str, Any]) -> DatasetInput:
 
 
 def _campaign_record(campaign: Campaign, description: Mapping[str, Any], figures: Sequence[Path]) -> Record:
-    note = f"Campaign **{campaign.name}** on **{description['title']}**: one child run per model and preset."
+    title = markdown_text(description["title"])
+    note = f"Campaign **{campaign.name}** on **{title}**: one child run per model and preset."
     tags = {
         "kind": "campaign",
         **common_tags(campaign, description),
@@ -187,7 +190,9 @@ def _campaign_record(campaign: Campaign, description: Mapping[str, Any], figures
 
 
 def _findings_note(description: Mapping[str, Any]) -> str:
-    return "".join(f"\n\n**{finding['severity']}**: {finding['sentence']}" for finding in description["findings"])
+    return "".join(
+        f"\n\n**{finding['severity']}**: {markdown_text(finding['sentence'])}" for finding in description["findings"]
+    )
 
 
 def _git_commit() -> str:

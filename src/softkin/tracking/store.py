@@ -20,6 +20,7 @@ from mlflow import MlflowClient
 from mlflow.exceptions import MlflowException
 
 from softkin.core.errors import StoreError
+from softkin.core.escaping import markdown_text
 from softkin.core.files import read_json
 from softkin.core.urls import without_credentials
 from softkin.data.audit.findings import LEAK
@@ -64,7 +65,7 @@ def common_tags(campaign: Campaign, description: Mapping[str, Any]) -> dict[str,
 
 def caution_note(campaign: Campaign) -> str:
     """The end of each description in MLflow: what the configuration says of its own numbers, if anything."""
-    return f"\n\n**caution**: {campaign.caution}" if campaign.caution else ""
+    return f"\n\n**caution**: {markdown_text(campaign.caution)}" if campaign.caution else ""
 
 
 def caution_content(campaign: Campaign) -> dict[str, str]:

@@ -21,6 +21,7 @@ from softkin.models.quantile import QUANTILE_MODELS
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from softkin.uncertainty.regions import REGION_METHODS
 from tests.conftest import HOUSE
+from tests.nasty import NASTY
 from tests.unit.cli.tables import columns
 
 
@@ -149,3 +150,16 @@ def test_messages_go_to_the_present_stderr_at_every_call(
     messages = capsys.readouterr().err
     assert "INFO: read as utf-8" in messages
     assert "Logging error" not in messages
+
+
+def test_names_of_files_and_columns_are_text(house: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """In the entry, in the comments above it, and in the file of datasets; the name of the file is no command."""
+    table = columns("u1", "u2", "x", "y", "z").assign(**{f"id {NASTY}": 1.0, "id: &a [*b\u2028injected: 1": 2.0})
+    name = f"-{NASTY}".replace("/", "_")[:200] + ".csv"
+    table.to_csv(name, index=False)
+    assert main(["--name", "arm", "--write", "--", name]) == 0
+    entry = yaml.safe_load(capsys.readouterr().out)["arm"]
+    written = yaml.safe_load((house / "config" / "datasets.yaml").read_text())
+    assert entry["file"] == name
+    assert written["sources"]["arm"] == entry
+    assert set(written) == {"sources"}

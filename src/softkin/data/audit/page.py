@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+from softkin.core.escaping import markdown_text
 from softkin.core.samples import SUBSETS, TRAIN
 from softkin.data.audit.findings import counted
 
@@ -24,7 +25,7 @@ def page(card: Mapping[str, Any]) -> str:
     """The page of a data card, the dictionary that is written as JSON."""
     checks = card["checks"]
     parts = [
-        f"# Data card: {card['title']}",
+        f"# Data card: {markdown_text(card['title'])}",
         f"`{card['dataset']}`. {VERDICTS[card['worst_severity']]}",
         "## Findings",
         *([_finding(finding) for finding in card["findings"]] or ["None."]),
@@ -47,7 +48,8 @@ def page(card: Mapping[str, Any]) -> str:
 
 
 def _finding(finding: Mapping[str, Any]) -> str:
-    text = f"- **{finding['severity']}**, `{finding['code']}`: {finding['sentence']} *{finding['consequence']}*"
+    text = f"- **{finding['severity']}**, `{finding['code']}`: {markdown_text(finding['sentence'])} "
+    text += f"*{markdown_text(finding['consequence'])}*"
     for subset, count in finding["n_rows"].items():
         shown = ", ".join(map(str, finding["rows"][subset][:MAX_ROWS_SHOWN]))
         more = ", ..." if count > MAX_ROWS_SHOWN else ""
@@ -161,4 +163,4 @@ def _regularity(outliers: Mapping[str, Any]) -> str:
 
 def _table(header: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
     lines = [header, ["---"] * len(header), *rows]
-    return "\n".join("| " + " | ".join(map(str, line)) + " |" for line in lines)
+    return "\n".join("| " + " | ".join(markdown_text(str(cell)) for cell in line) + " |" for line in lines)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pandas as pd
 
+from softkin.core.escaping import figure_text
 from softkin.core.runs import PRESETS
 from softkin.reporting.figures.spec import CampaignResults, FigureSpec
 from softkin.reporting.figures.style import BLACK, PAGE, panels
@@ -57,7 +58,8 @@ def plot(frame: pd.DataFrame, results: CampaignResults) -> Figure:
         for column, preset in enumerate(presets):
             cells = frame[(frame["dataset"] == dataset) & (frame["preset"] == preset)]
             image = _draw(axes[row][column], cells, models, norm)
-            name = results.dataset_titles[dataset].split(" (")[0] + ("*" if (cells["note"] != "").any() else "")
+            name = figure_text(results.dataset_titles[dataset].split(" (")[0])
+            name += "*" if (cells["note"] != "").any() else ""
             axes[row][column].set_title(f"{name}, {preset} preset", pad=14)
         axes[row][0].set_yticks(range(len(models)), [results.model_titles[model] for model in models])
     figure.colorbar(

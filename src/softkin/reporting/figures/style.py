@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from softkin.core.escaping import figure_text
 from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, VALIDATION
 from softkin.models import MODELS
 from softkin.models.quantile import QUANTILE_MODELS
@@ -96,9 +97,9 @@ def heading(
     `rows_of`: the subsets whose single rows are drawn; it is said when that is a sample of them.
     """
     width = int(12 * figure.get_figwidth())
-    notes = [f"{subset}: {note}" for subset, note in results.notes.items() if subset in shows]
+    notes = [f"{subset}: {figure_text(note)}" for subset, note in results.notes.items() if subset in shows]
     notes += sample_notes(results, rows_of)
-    lines = [fill(line, width) for line in (f"{results.title}: {text}", *notes)]
+    lines = [fill(line, width) for line in (f"{figure_text(results.title)}: {text}", *notes)]
     figure.suptitle("\n".join(lines), fontsize=9 if notes else 10)
 
 

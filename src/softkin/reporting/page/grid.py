@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from urllib.parse import quote
 
+from softkin.core.escaping import csv_text
 from softkin.reporting.page.marks import Mark, merged
 from softkin.reporting.tables.numbers import number_text, share_text
 
@@ -70,8 +71,8 @@ class Grid:
             return self.file
         stream = io.StringIO()
         writer = csv.writer(stream)
-        writer.writerow(column.title for column in self.columns)
-        writer.writerows([cell.text for cell in row] for row in self.rows)
+        writer.writerow(csv_text(column.title) for column in self.columns)
+        writer.writerows([csv_text(cell.text) for cell in row] for row in self.rows)
         return "data:text/csv;charset=utf-8," + quote(stream.getvalue())
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from softkin.core.escaping import csv_frame, markdown_text, one_line
 from softkin.core.files import replacing, write_text
 from softkin.core.runs import OUTER, PAPER, TUNED
 from softkin.core.samples import TEST
@@ -44,10 +45,10 @@ def build_tables(tables: Tables, *, titles: Titles, folder: Path, caution: str |
     frames = tables.frames
     for name, frame in frames.items():
         with replacing(folder / f"{name}.csv") as temporary:
-            frame.to_csv(temporary, index=False)
+            csv_frame(frame).to_csv(temporary, index=False)
     robots = {name: entry["title"] for name, entry in tables.sources.items()}
     sentences = summary(frames["published_comparison"], frames.get("published_columns"))
-    preface = _preface([*_cautions(caution), *sentences], presets_of(frames["point_metrics"]))
+    preface = _preface([*map(markdown_text, _cautions(caution)), *sentences], presets_of(frames["point_metrics"]))
     papers = _papers_tables(tables, titles)
     write_text(folder / "paper_tables.md", "\n".join([preface, *(table.markdown() for table in papers)]))
     write_text(folder / "paper_tables.tex", "\n".join(table.latex() for table in papers))
@@ -63,7 +64,7 @@ def build_tables(tables: Tables, *, titles: Titles, folder: Path, caution: str |
 
 
 def _cautions(caution: str | None) -> list[str]:
-    return [f"CAUTION: {caution}"] if caution else []
+    return [f"CAUTION: {one_line(caution)}"] if caution else []
 
 
 def _papers_tables(tables: Tables, titles: Titles) -> list[PaperTable]:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import pandas as pd
 
+from softkin.core.escaping import one_line
 from softkin.core.samples import EXTRAPOLATION, TEST
 from softkin.reporting.tables.interval_choice import chosen_intervals, deployed_intervals
 from softkin.reporting.tables.numbers import number_text, share_text
@@ -46,7 +47,10 @@ def headline(
     width = 2 + max(18, *map(len, choice["dataset"]))
     lines = ["", "softkin: forward kinematics, mean error of a marker position (mm)", ""]
     if caution:
-        lines += [*textwrap.wrap(f"CAUTION: {caution}", WIDTH, initial_indent="  ", subsequent_indent="  "), ""]
+        lines += [
+            *textwrap.wrap(f"CAUTION: {one_line(caution)}", WIDTH, initial_indent="  ", subsequent_indent="  "),
+            "",
+        ]
     if selected is not None:
         lines += _errors(selected, point, leaking, width)
     lines += _intervals(choice, width)

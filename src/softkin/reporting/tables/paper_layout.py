@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import pandas as pd
 
+from softkin.core.escaping import latex_text, markdown_text
 from softkin.core.metrics.point import LARGER_IS_BETTER
 from softkin.core.samples import EXTRAPOLATION, TEST
 from softkin.reporting.tables.numbers import NOTHING, number_text
@@ -29,14 +30,19 @@ class PaperTable:
 
     def markdown(self) -> str:
         """As a Markdown table, group headings as rows of their own."""
-        lines = [f"### {self.title}", "", _line(self.header), _line(["---"] * len(self.header))]
+        lines = [
+            f"### {markdown_text(self.title)}",
+            "",
+            _line(map(markdown_text, self.header)),
+            _line(["---"] * len(self.header)),
+        ]
         start = 0
         for heading, size in self.groups:
             if heading:
-                lines.append(_line([f"*{heading}*"] + [""] * (len(self.header) - 1)))
-            lines += [_line(self._cells(i, "**{}**")) for i in range(start, start + size)]
+                lines.append(_line([f"*{markdown_text(heading)}*"] + [""] * (len(self.header) - 1)))
+            lines += [_line(self._cells(i, "**{}**", markdown_text)) for i in range(start, start + size)]
             start += size
-        return "\n".join([*lines, "", *(f"{note}\n" for note in self.notes)])
+        return "\n".join([*lines, "", *(f"{markdown_text(note)}\n" for note in self.notes)])
 
     def latex(self) -> str:
         """As a LaTeX table environment; needs the package booktabs."""
@@ -54,7 +60,7 @@ class PaperTable:
         lines += [r"\bottomrule", r"\end{tabular}", *(rf"\par\small {_tex(note)}" for note in self.notes)]
         return "\n".join([*lines, r"\end{table}", ""])
 
-    def _cells(self, row: int, bold: str, escape: Callable[[str], str] = str) -> list[str]:
+    def _cells(self, row: int, bold: str, escape: Callable[[str], str]) -> list[str]:
         return [
             bold.format(escape(cell)) if (row, column) in self.bold else escape(cell)
             for column, cell in enumerate(self.rows[row])
@@ -137,7 +143,7 @@ def text_of_best(best: float | None, texts: Mapping[str, str], values: Mapping[s
     return next((texts[model] for model, value in values.items() if value == best), None)
 
 
-def _line(cells: Sequence[str]) -> str:
+def _line(cells: Iterable[str]) -> str:
     return "| " + " | ".join(cells) + " |"
 
 
@@ -146,8 +152,4 @@ def _tex_line(cells: Iterable[str]) -> str:
 
 
 def _tex(text: str) -> str:
-    for character in "&%_#":
-        text = text.replace(character, "\\" + character)
-    for character in "<>":
-        text = text.replace(character, f"${character}$")
-    return text.replace("R2", "$R^2$")
+    return latex_text(text).replace("R2", "$R^2$")

@@ -1,13 +1,17 @@
 from __future__ import annotations
 
+import re
+from dataclasses import replace
 from pathlib import Path
 
 import pandas as pd
 import pytest
+from markdown import markdown  # type: ignore[import-untyped]
 
 from softkin.reporting.tables.build import build_tables
 from softkin.reporting.tables.frames import Tables
 from softkin.reporting.titles import Titles
+from tests.nasty import NASTY
 from tests.unit.reporting.tables.conftest import Run, write_run
 
 TITLES = Titles({"gb": "Gradient boosting", "lr": "Linear regression"}, {"cqr": "CQR", "scp_mapie": "SCP (MAPIE)"})
@@ -108,3 +112,24 @@ def test_robots_that_the_paper_does_not_have_have_no_table_6(run: Run, tmp_path:
     assert "Table 6" not in text
     assert "nothing was run that the paper has printed" in text
     assert "printed |" not in text
+
+
+def test_titles_notes_and_cautions_are_text_in_every_table(run: Run, tmp_path: Path) -> None:
+    tables = run.tables()
+    sources = {name: {**entry, "title": NASTY} for name, entry in tables.sources.items()}
+    descriptions = [{**description, "title": NASTY} for description in tables.descriptions]
+    notes = dict.fromkeys([("finger", "test"), ("arm", "extrapolation")], NASTY)
+    frames = dict(tables.frames)
+    frames["published_comparison"] = frames["published_comparison"].assign(note=NASTY)
+    nasty = replace(tables, sources=sources, descriptions=descriptions, notes=notes, frames=frames)
+    build_tables(nasty, titles=TITLES, folder=tmp_path / "tables", caution=NASTY)
+    for path in (tmp_path / "tables").glob("*.md"):
+        html = markdown(path.read_text(), extensions=["tables"])
+        assert "calc" in html, path.name
+        assert not re.search(r"<(a|img|script)\b", html), path.name
+    for path in (tmp_path / "tables").glob("*.tex"):
+        commands = set(re.findall(r"\\([a-zA-Z]+)", path.read_text()))
+        assert not commands & {"input", "write", "frac"}, path.name
+    for path in (tmp_path / "tables").glob("*.csv"):
+        assert not re.search(r'(^|,)"?[=@]', path.read_text(), re.MULTILINE), path.name
+    assert "\x1b" not in (tmp_path / "tables" / "headline.txt").read_text()
