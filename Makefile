@@ -1,7 +1,13 @@
 # make run: the whole pipeline. make test: the tests. Each installs what it needs into .venv first.
 PYTHON ?= python3
 CORES ?= 2
+IN ?= .
 BIN := .venv/bin
+# What a person gives: recipes read it from their environment, "$$FILE", as it is. Written into a recipe as $(FILE) a quote
+# or a $(...) in it would be run by the shell, and a $(...) by make.
+GIVEN := PYTHON CORES IN FILE NAME WRITE
+$(foreach name,$(GIVEN),$(eval override $(name) := $$(value $(name))))
+export $(GIVEN)
 export MLFLOW_DISABLE_TELEMETRY := true
 # Things run side by side, one core each: with more threads than that they wait for each other most of the time.
 export OMP_NUM_THREADS := 1
@@ -12,11 +18,11 @@ export OMP_NUM_THREADS := 1
 .PHONY: environment clean ui-screenshot bad-inputs-page
 
 run: .venv/installed
-	$(BIN)/snakemake --cores $(CORES)
+	$(BIN)/snakemake --cores "$$CORES"
 
 # A first look at everything, in a folder and a store of its own: one robot, few models, few trials.
 demo: .venv/installed
-	env -u MLFLOW_TRACKING_URI $(BIN)/snakemake --cores $(CORES) --directory results/demo --configfile config/demo.yaml
+	env -u MLFLOW_TRACKING_URI $(BIN)/snakemake --cores "$$CORES" --directory results/demo --configfile config/demo.yaml
 	@echo "All of this is in results/demo: open results/demo/results/report.html, or browse it by make ui IN=results/demo"
 
 # After a kill -9 or a power cut, when no other run is going on: `make unlock run`.
@@ -25,7 +31,7 @@ unlock: .venv/installed
 
 # A robot of your own: make new-robot FILE=arm.csv shows a guess of its entry, with WRITE=1 config/datasets.yaml gets it.
 new-robot: .venv/installed
-	@$(BIN)/python -m softkin.cli.new_robot "$(FILE)" $(if $(NAME),--name "$(NAME)") $(if $(WRITE),--write)
+	@$(BIN)/python -m softkin.cli.new_robot $${NAME:+--name="$$NAME"} $${WRITE:+--write} -- "$$FILE"
 
 # The workflow tests, which wait for one run of the workflow, beside all others.
 test: .venv/installed-dev
@@ -38,7 +44,7 @@ test-others: .venv/installed-dev
 	$(BIN)/pytest -m "not slow" --ignore tests/workflow
 
 test-run: .venv/installed
-	$(BIN)/snakemake --cores $(CORES) --directory results/test-run --configfile config/test.yaml
+	$(BIN)/snakemake --cores "$$CORES" --directory results/test-run --configfile config/test.yaml
 
 lint: .venv/installed-dev
 	$(BIN)/ruff check .
@@ -48,19 +54,18 @@ lint: .venv/installed-dev
 	$(BIN)/mypy
 
 # The link opens what MLflow hides behind *Model training*. IN: the folder of the run, such as results/demo.
-IN ?= .
 ui: .venv/installed
 	@echo "http://127.0.0.1:5000/#/experiments?workflowType=machine_learning"
-	cd "$(IN)" && MLFLOW_SERVER_ENABLE_JOB_EXECUTION=false "$(CURDIR)/$(BIN)/mlflow" ui --host 127.0.0.1 --workers 1
+	cd -- "$$IN" && MLFLOW_SERVER_ENABLE_JOB_EXECUTION=false "$(CURDIR)/$(BIN)/mlflow" ui --host 127.0.0.1 --workers 1
 
 # Make the MLflow store anew, or bring it up to date, from results/.
 store: .venv/installed
 	rm -f results/mlflow_store.json
-	$(BIN)/snakemake --cores $(CORES) --forcerun track
+	$(BIN)/snakemake --cores "$$CORES" --forcerun track
 
 # The page of the run, results/report.html, and nothing that it does not need.
 report: .venv/installed
-	$(BIN)/snakemake --cores $(CORES) results/report.html
+	$(BIN)/snakemake --cores "$$CORES" results/report.html
 
 # The pictures and the table of the README, from a finished run of the default configuration.
 gallery: .venv/installed
@@ -82,7 +87,7 @@ campaign-slurm: .venv/installed-dev
 
 # How well the default run uses the machine: fit CPU against wall time, and the ten slowest jobs.
 benchmark: .venv/installed
-	$(BIN)/python benchmarks/utilisation.py --cores $(CORES)
+	$(BIN)/python benchmarks/utilisation.py --cores "$$CORES"
 
 # Whether intervals cover what they say, over random re-splits of a finished run.
 coverage: .venv/installed
@@ -99,7 +104,7 @@ benchmark-pruning: .venv/installed
 
 # Whether robots of 2 to 64 commands and 10,000 rows go through with all models in 15 minutes and 4 GB each.
 benchmark-commands: .venv/installed
-	$(BIN)/python -m benchmarks.commands --cores $(CORES)
+	$(BIN)/python -m benchmarks.commands --cores "$$CORES"
 
 # Whether a dry run of 1,000 datasets takes at most 90 s and 1.5 GB, and how both grow with the number of datasets.
 benchmark-many-robots: .venv/installed
@@ -152,7 +157,7 @@ clean:
 
 # Bytecode is compiled here because some machines forbid it at run time, and imports are three times slower without.
 .venv/installed: environment.txt pyproject.toml
-	$(PYTHON) -m venv .venv
+	"$$PYTHON" -m venv .venv
 	$(BIN)/pip install --quiet --disable-pip-version-check -r environment.txt
 	$(BIN)/pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
 	$(BIN)/python -m compileall -q .venv/lib src > /dev/null || true

@@ -1,0 +1,106 @@
+"""What a person gives to make reaches a program as it is, and is run by neither make nor the shell."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from tests.conftest import HOUSE
+from tests.nasty import NASTY
+
+#: Each would make a file `hit`, or break the recipe, where it is taken for more than text.
+VALUES = (
+    'it\'s "an" arm; touch hit.csv',
+    "$(touch hit)",
+    "$(shell touch hit)",
+    "${shell touch hit}",
+    "`touch hit`",
+    "$$(touch hit) $PATH $$ %",
+    '"; touch hit; "',
+    "a\nb #c \\",
+    "-x --write",
+    "two  blanks ",  # make drops those before it
+    NASTY,
+)
+
+
+@pytest.fixture
+def house(tmp_path: Path) -> Path:
+    """The Makefile, and programs that write down their arguments."""
+    shutil.copy(HOUSE / "Makefile", tmp_path)
+    for name in ("environment.txt", "pyproject.toml", "environment-dev.txt"):
+        (tmp_path / name).touch()
+    bin_ = tmp_path / ".venv" / "bin"
+    bin_.mkdir(parents=True)
+    for name in ("python", "snakemake", "mlflow", "pip"):
+        (bin_ / name).write_text('#!/bin/sh\nprintf "%s\\0" "$@" > "$HEARD"\npwd > "$HEARD.folder"\n')
+        (bin_ / name).chmod(0o755)
+    (tmp_path / ".venv" / "installed").touch()
+    return tmp_path
+
+
+def heard(house: Path, target: str, **given: str) -> list[str]:
+    """The arguments of the last program that `make target` started, with variables given on its command line."""
+    file = house / "heard"
+    done = subprocess.run(
+        ["make", "-s", target, *(f"{name}={value}" for name, value in given.items())],
+        cwd=house,
+        env=os.environ | {"HEARD": str(file)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert not list(house.rglob("hit*"))
+    return file.read_text().split("\0")[:-1]
+
+
+@pytest.mark.parametrize("value", VALUES)
+def test_a_file_may_have_any_name(house: Path, value: str) -> None:
+    module = ["-m", "softkin.cli.new_robot"]
+    assert heard(house, "new-robot", FILE=value) == [*module, "--", value]
+    assert heard(house, "new-robot", FILE="a", NAME=value, WRITE="1") == [
+        *module,
+        f"--name={value}",
+        "--write",
+        "--",
+        "a",
+    ]
+    assert heard(house, "new-robot", FILE="a", WRITE=value) == [*module, "--write", "--", "a"]
+
+
+@pytest.mark.parametrize("value", VALUES)
+def test_every_other_variable_is_text_too(house: Path, value: str) -> None:
+    assert heard(house, "run", CORES=value) == ["--cores", value]
+    folder = value.replace("/", "_")[:200]
+    (house / folder).mkdir()
+    assert heard(house, "ui", IN=folder)[0] == "ui"
+    assert (house / "heard.folder").read_text() == f"{house / folder}\n"
+
+
+def test_variables_of_the_environment_are_text_too(house: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("FILE", "$(shell touch hit)$(touch hit)")
+    assert heard(house, "new-robot")[-1] == "$(shell touch hit)$(touch hit)"
+
+
+@pytest.mark.parametrize("value", VALUES)
+def test_the_interpreter_is_one_word(house: Path, value: str) -> None:
+    """There is none of that name; nothing else is run for it."""
+    (house / ".venv" / "installed").unlink()
+    done = subprocess.run(["make", f"PYTHON={value}", "run"], cwd=house, capture_output=True, check=False)
+    assert done.returncode != 0
+    assert not list(house.rglob("hit*"))
+
+
+def test_no_recipe_has_a_variable_that_a_person_gives() -> None:
+    text = (HOUSE / "Makefile").read_text()
+    names = next(line for line in text.splitlines() if line.startswith("GIVEN := ")).split()[2:]
+    assert {"FILE", "NAME", "CORES", "PYTHON", "IN", "WRITE"} <= set(names)
+    defaults = [line.split("?=")[0].strip() for line in text.splitlines() if "?=" in line]
+    assert set(defaults) <= set(names)
+    recipes = [line for line in text.splitlines() if line.startswith("\t")]
+    assert [line for line in recipes for name in names if f"$({name})" in line or f"${{{name}}}" in line] == []
