@@ -17,6 +17,7 @@ from softkin.core.runs import PRESETS
 from softkin.data.prepare import MM_PER_UNIT
 from softkin.data.readers import READERS
 from softkin.data.split import GROUPS
+from softkin.data.split_in_time import IN_TIME
 from softkin.models.target_spaces import TARGET_SPACES
 from softkin.training.selection import OBJECTIVES
 from softkin.uncertainty.intervals.spec import REGIMES
@@ -33,7 +34,7 @@ LISTED = {
     "when_unreachable": ("simulate", "fail"),
     "position_unit": MM_PER_UNIT,
     "dimensions": (2, 3),
-    "method": ("column", *GROUPS),
+    "method": ("column", *GROUPS, *IN_TIME),
 }
 #: What is given with `--configfile`, on top of the default configuration.
 MORE = sorted(path for path in (HOUSE / "config").glob("*.yaml") if path.name not in ("config.yaml", "datasets.yaml"))

@@ -110,6 +110,18 @@ def own_file(wildcards):
     return [] if "urls" in entry or "robot" in entry else [entry["file"]]
 
 
+def order_table(wildcards):
+    """The table that says when the rows of a dataset were recorded, where its entry names one: that of a published
+    dataset comes with softkin.
+    """
+    entry = source(wildcards)
+    if not isinstance(entry.get("order"), dict):
+        return []
+    name = entry["order"]["file"]
+    folder = Path(workflow.basedir) / "resources" / "published"
+    return [str(folder / name) if "urls" in entry else name]
+
+
 def robot(wildcards):
     """The params of studies and fits on a robot: its base, and whether command norms are standardised."""
     entry = source(wildcards)

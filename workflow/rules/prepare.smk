@@ -3,6 +3,7 @@
 rule prepare:
     input:
         raw="results/{dataset}/raw",
+        order=order_table,
     output:
         table="results/{dataset}/table.parquet",
         description="results/{dataset}/dataset.json",

@@ -12,6 +12,7 @@ with job(snakemake.log[0], f"prepare {dataset}"):
         source=snakemake.params.source,
         table=snakemake.output.table,
         description=snakemake.output.description,
+        order_table=next(iter(snakemake.input.order), None),
         max_rows=snakemake.params.max_rows,
         clean=cleaned if snakemake.params.source.get("clean") else None,
     )

@@ -15,6 +15,7 @@ from softkin.core.samples import Array
 from softkin.data import split
 from softkin.data.readers import table_file
 from softkin.data.readers.columns import axis_of, marker_by_marker, unit_of
+from softkin.data.recordings import recording_of
 
 #: Words of a column's name, by the kind of column that they say; the first kind that has one of the words counts.
 WORDS = {
@@ -26,6 +27,8 @@ WORDS = {
     "command": "u p q cmd command act actuation actuator input pressure chamber tendon cable force tension motor torque"
     " voltage current servo valve setpoint control",
 }
+#: Parts of a column's name that say one power-on of the robot.
+SESSION = re.compile(r"session|trial|run")
 #: A workspace wider than this is taken to be in mm: no robot is so many metres wide.
 LARGEST_METRES = 5.0
 
@@ -58,11 +61,14 @@ def guess_entry(path: Path, title: str, file: str) -> tuple[dict[str, Any], list
         "positions": positions,
         "split": split_options,
     }
-    reasons += [why_unit, why_split]
+    when, why_when = _when(table, kinds)
+    entry |= when
+    reasons += [why_unit, why_split, *why_when]
     if dimensions == 2:
         entry["dimensions"] = 2
         reasons.append("dimensions: positions of two axes only, so a planar robot")
-    left_out = [name for name in table.names if name not in (*commands, *positions, split_options.get("column"))]
+    used = (*commands, *positions, split_options.get("column"), *when.values())
+    left_out = [name for name in table.names if name not in used]
     if left_out:
         reasons.append(f"left out: {', '.join(left_out)}")
     return entry, reasons
@@ -121,6 +127,24 @@ def _unit(names: Sequence[str], values: Array, path: Path) -> tuple[str, str]:
     extent = np.ptp(values, axis=0).max()
     unit = "m" if extent <= LARGEST_METRES else "mm"
     return unit, f"position_unit: guessed from the width of the workspace, {extent:.3g}; please check"
+
+
+def _when(table: table_file.Table, kinds: Mapping[str, str | None]) -> tuple[dict[str, str], list[str]]:
+    """Columns of the order and the session of rows, and what a person must check of them; none where they are no
+    order, or sessions are not in one piece.
+    """
+    order = next((name for name, kind in kinds.items() if kind == "time"), None)
+    session = next((name for name, kind in kinds.items() if kind == "group" and SESSION.search(name.lower())), None)
+    named = {key: name for key, name in (("order", order), ("session", session)) if name is not None}
+    if not named:
+        return {}, []
+    _, columns = table.read([], [table.names.index(name) for name in named.values()])
+    by = dict(zip(named, columns, strict=True))
+    try:
+        recording_of(np.zeros((len(columns[0]), 1)), by.get("order"), by.get("session"), table.place)
+    except DataError as error:
+        return {}, [f"order, session: left out, since {' and '.join(named.values())} are none: {error.what}"]
+    return named, [f"{', '.join(named)}: guessed from the names of columns, so that memory can be found; please check"]
 
 
 def _split(table: table_file.Table, kinds: Mapping[str, str | None]) -> tuple[dict[str, Any], str]:

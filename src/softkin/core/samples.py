@@ -6,11 +6,13 @@ Array shapes, stated once: commands ``(n_rows, n_commands)``; positions ``(n_row
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
+
+from softkin.core.recording import Recording
 
 Array = NDArray[np.float64]
 Params = dict[str, Any]
@@ -25,13 +27,29 @@ MAX_MAGNITUDE = 1e100
 
 @dataclass(frozen=True, slots=True)
 class Samples:
-    """Rows of one subset: `commands` (n_rows, n_commands), `positions` (n_rows, n_coordinates) in mm."""
+    """Rows of one subset: `commands` (n_rows, n_commands), `positions` (n_rows, n_coordinates) in mm.
+
+    `recording` says when they were measured, where the dataset knows it.
+    """
 
     commands: Array
     positions: Array
+    recording: Recording | None = None
 
     def __len__(self) -> int:
         return len(self.commands)
+
+    @property
+    def inputs(self) -> Array:
+        """What a model is given of each row: its command, and where there is a recording its memory and session."""
+        if self.recording is None:
+            return self.commands
+        return np.column_stack([self.commands, self.recording.memory, self.recording.session])
+
+    def take(self, rows: NDArray[Any] | slice) -> Self:
+        """Some of the rows."""
+        recording = None if self.recording is None else self.recording.take(rows)
+        return replace(self, commands=self.commands[rows], positions=self.positions[rows], recording=recording)
 
 
 def command_columns(n_commands: int) -> list[str]:

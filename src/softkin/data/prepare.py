@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,8 @@ from softkin.core.errors import DataError
 from softkin.core.files import file_sha256, write_json
 from softkin.core.samples import CONSTANT_RANGE_MM, TRAIN, Samples, coordinate_columns, informative_coordinates
 from softkin.data.readers import READERS
+from softkin.data.recordings import description as recording_description
+from softkin.data.recordings import with_order_table
 from softkin.data.table import content_hash, schema, to_table, write_table
 
 logger = logging.getLogger("softkin")
@@ -34,6 +37,7 @@ def prepare(
     source: Mapping[str, Any],
     table: str | Path,
     description: str | Path,
+    order_table: str | Path | None = None,
     max_rows: int | None = None,
     clean: Cleaning | None = None,
 ) -> None:
@@ -45,6 +49,7 @@ def prepare(
         source: its entry in config/datasets.yaml.
         table: path of the tidy table to write (Parquet, mm).
         description: path of the description to write (JSON).
+        order_table: path of the table that says when rows were recorded, where the entry names one.
         max_rows: rows of each subset that are kept, the first ones, to try the workflow out; None keeps all.
         clean: drops rows of `train` and counts them by kind; None drops none.
 
@@ -54,6 +59,9 @@ def prepare(
     samples = READERS[source["format"]](raw, dataset=dataset, source=source)
     sizes = {subset: len(rows) for subset, rows in samples.items()}
     _check_sizes(sizes, source, f"dataset '{dataset}', file {raw}")
+    if order_table is not None:
+        samples = with_order_table(samples, order_table, source)
+    recorded = recording_description(samples)
     samples = {subset: _in_mm(rows, max_rows, source["position_unit"]) for subset, rows in samples.items()}
     removed = None
     if clean is not None:
@@ -63,26 +71,30 @@ def prepare(
     _warn_of_implausible_range(samples[TRAIN], source, f"dataset '{dataset}', file {source['file']}")
     frame = to_table(samples)
     n_commands, n_markers = samples[TRAIN].commands.shape[1], samples[TRAIN].positions.shape[1] // 3
-    schema(n_commands, n_markers).validate(frame)
+    schema(n_commands, n_markers, recorded is not None).validate(frame)
     write_table(frame, table)
-    origin = "stand-in" if "robot" in source else "published" if "urls" in source else "own"
-    write_json(
-        description,
-        {
-            "dataset": dataset,
-            "title": source["title"],
-            "origin": origin,
-            "sha256": source.get("sha256") or file_sha256(raw),
-            "n_commands": n_commands,
-            "n_markers": n_markers,
-            "rows": {subset: len(rows) for subset, rows in samples.items()},
-            "removed_from_train": removed,
-            "is_cut": max_rows is not None and any(size > max_rows for size in sizes.values()),
-            "content_sha256": {subset: content_hash(rows) for subset, rows in samples.items()},
-            "constant_coordinates": _constant_coordinates(samples[TRAIN]),
-        },
-    )
+    about = {
+        "dataset": dataset,
+        "sha256": source.get("sha256") or file_sha256(raw),
+        "removed_from_train": removed,
+        "is_cut": max_rows is not None and any(size > max_rows for size in sizes.values()),
+    }
+    write_json(description, about | _description(samples, source) | ({"recording": recorded} if recorded else {}))
     logger.info("%d rows, %d commands, %d coordinates", len(frame), n_commands, 3 * n_markers)
+
+
+def _description(samples: Mapping[str, Samples], source: Mapping[str, Any]) -> dict[str, Any]:
+    """What the samples of a table (mm) and the entry `source` say."""
+    train = samples[TRAIN]
+    return {
+        "title": source["title"],
+        "origin": "stand-in" if "robot" in source else "published" if "urls" in source else "own",
+        "n_commands": train.commands.shape[1],
+        "n_markers": train.positions.shape[1] // 3,
+        "rows": {subset: len(rows) for subset, rows in samples.items()},
+        "content_sha256": {subset: content_hash(rows) for subset, rows in samples.items()},
+        "constant_coordinates": _constant_coordinates(train),
+    }
 
 
 def _check_sizes(sizes: Mapping[str, int], source: Mapping[str, Any], where: str) -> None:
@@ -113,7 +125,8 @@ def _check_movement(train: Samples, where: str) -> None:
 
 
 def _in_mm(rows: Samples, max_rows: int | None, unit: str) -> Samples:
-    return Samples(rows.commands[:max_rows], rows.positions[:max_rows] * MM_PER_UNIT[unit])
+    kept = rows.take(slice(max_rows))
+    return replace(kept, positions=kept.positions * MM_PER_UNIT[unit])
 
 
 def _warn_of_implausible_range(train: Samples, source: Mapping[str, Any], where: str) -> None:

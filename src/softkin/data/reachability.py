@@ -12,7 +12,18 @@ from softkin.core.errors import RetrievalError
 
 SUFFIX = "_standin"
 #: Keys of an entry that are about the published data only.
-PUBLISHED_ONLY = ("urls", "sha256", "licence", "citation", "paper_table", "paper_params", "notes", "clean")
+PUBLISHED_ONLY = (
+    "urls",
+    "sha256",
+    "licence",
+    "citation",
+    "paper_table",
+    "paper_params",
+    "notes",
+    "clean",
+    "order",
+    "session",
+)
 
 
 def stand_in_entry(entry: Mapping[str, Any]) -> dict[str, Any]:

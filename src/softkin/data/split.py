@@ -2,7 +2,8 @@
 
 The methods `random`, `group` and `time` first form groups of rows that must stay together. The outer groups, by
 standardised command norm, become `extrapolation`; the others are drawn at random: 80 % of their rows for `train`, 10 %
-for `validation`, 10 % for `test`. The method `column` takes the subsets from a column of the file.
+for `validation`, 10 % for `test`. The method `column` takes the subsets from a column of the file. The methods
+`session` and `later` split a recording by time, see `split_in_time`.
 """
 
 from __future__ import annotations
@@ -14,7 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from softkin.core.errors import DataError
+from softkin.core.recording import Recording
 from softkin.core.samples import EXTRAPOLATION, SUBSETS, TEST, TRAIN, VALIDATION, Array
+from softkin.data.split_in_time import IN_TIME, split_in_time
 
 Codes = NDArray[np.int64]
 
@@ -34,7 +37,11 @@ def has_standardised_norm(entry: Mapping[str, Any]) -> bool:
 
 
 def split(
-    options: Mapping[str, Any], commands: Array, column: NDArray[Any] | None, place: Callable[[int], str]
+    options: Mapping[str, Any],
+    commands: Array,
+    column: NDArray[Any] | None,
+    place: Callable[[int], str],
+    recording: Recording | None = None,
 ) -> Codes:
     """The subset of each row, as its index in `SUBSETS` (n_rows,).
 
@@ -43,12 +50,16 @@ def split(
         commands: (n_rows, n_commands).
         column: values (n_rows,) of the file's column that `options` names, text or numbers; None where it names none.
         place: row number -> where the row stands in the file, for messages.
+        recording: when the rows were recorded, where the entry says it.
 
     Raises:
         DataError: a subset would be empty, or a value of `column` cannot be used; names the row and the column.
     """
     if options["method"] == "column":
         return _named_subsets(options, column, place)
+    if options["method"] in IN_TIME:
+        outer = options.get("extrapolation_share", EXTRAPOLATION_SHARE)
+        return split_in_time(options, standardised_norms(commands), recording, outer)
     groups = GROUPS[options["method"]](options, commands, column, place)
     return _drawn_subsets(options, groups, standardised_norms(commands))
 
@@ -66,8 +77,8 @@ def standardised_norms(commands: Array) -> Array:
 
 
 def wanted_shares(options: Mapping[str, Any]) -> dict[str, float]:
-    """Share of all rows that each subset should get; empty where the file names the subsets."""
-    if options["method"] == "column":
+    """Share of all rows that each subset should get; empty where the file or its sessions decide."""
+    if options["method"] in ("column", "session"):
         return {}
     outer = options.get("extrapolation_share", EXTRAPOLATION_SHARE)
     return {subset: (1 - outer) * share for subset, share in INNER_SHARES.items()} | {EXTRAPOLATION: outer}
@@ -166,14 +177,13 @@ def _same_stretch(
 ) -> Codes:
     """Stretches of equal size of the recording in the order of time; rows of one time stay together."""
     assert column is not None
-    times = _times(options["column"], column, place)
-    ordered = np.sort(times)
-    rank = np.searchsorted(ordered, times, side="left")
-    stretches = rank * options.get("blocks", BLOCKS) // len(times)
+    when = times(options["column"], column, place)
+    rank = np.searchsorted(np.sort(when), when, side="left")
+    stretches = rank * options.get("blocks", BLOCKS) // len(when)
     return np.asarray(np.unique(stretches, return_inverse=True)[1])
 
 
-def _times(name: str, column: NDArray[Any], place: Callable[[int], str]) -> NDArray[Any]:
+def times(name: str, column: NDArray[Any], place: Callable[[int], str]) -> NDArray[Any]:
     """Numbers or ISO 8601 dates, as text or numbers, as numbers that sort alike."""
     import pandas as pd
 

@@ -1,5 +1,8 @@
 """The tidy table of a dataset: one Parquet file with columns subset, u1, ..., m1_x, ... (mm).
 
+A table that says when its rows were recorded has more columns before the positions: order, session, and what the robot
+may remember of the commands before (`softkin.core.recording`).
+
 A stage names the one subset that it may see; no other row is read from the disk.
 """
 
@@ -15,19 +18,26 @@ import pandas as pd
 
 from softkin.core.errors import DataError
 from softkin.core.files import replacing
+from softkin.core.recording import Recording, memory_columns
 from softkin.core.samples import SUBSETS, Samples, command_columns, coordinate_columns
 
 if TYPE_CHECKING:
     import pandera.pandas as pandera
 
 
-def schema(n_commands: int, n_markers: int) -> pandera.DataFrameSchema:
-    """The schema of a tidy table: these columns in this order, finite 64-bit floats, the names of the four subsets."""
+def schema(n_commands: int, n_markers: int, is_recorded: bool = False) -> pandera.DataFrameSchema:
+    """The schema of a tidy table: these columns in this order, finite 64-bit floats, the names of the four subsets;
+    where it is recorded an order without repetition, and sessions from 1.
+    """
     import pandera.pandas as pa
 
     number = pa.Column(float, pa.Check(np.isfinite, error="must be finite"), nullable=False)
     columns = {"subset": pa.Column(str, pa.Check.isin(SUBSETS), nullable=False)}
-    columns |= dict.fromkeys([*command_columns(n_commands), *coordinate_columns(n_markers)], number)
+    columns |= dict.fromkeys(command_columns(n_commands), number)
+    if is_recorded:
+        columns |= {"order": pa.Column(int, unique=True), "session": pa.Column(int, pa.Check.ge(1))}
+        columns |= dict.fromkeys(memory_columns(n_commands), number)
+    columns |= dict.fromkeys(coordinate_columns(n_markers), number)
     return pa.DataFrameSchema(columns, strict=True, ordered=True)
 
 
@@ -35,8 +45,13 @@ def to_table(samples: Mapping[str, Samples]) -> pd.DataFrame:
     """Samples per subset (mm) as one table; the order of subsets and rows stays."""
     frames = []
     for subset, rows in samples.items():
-        names = command_columns(rows.commands.shape[1]) + coordinate_columns(rows.positions.shape[1] // 3)
-        frame = pd.DataFrame(np.hstack([rows.commands, rows.positions]), columns=names)
+        n_commands, recording = rows.commands.shape[1], rows.recording
+        parts = [pd.DataFrame(rows.commands, columns=command_columns(n_commands))]
+        if recording is not None:
+            parts.append(pd.DataFrame({"order": recording.order, "session": recording.session}))
+            parts.append(pd.DataFrame(recording.memory, columns=memory_columns(n_commands)))
+        parts.append(pd.DataFrame(rows.positions, columns=coordinate_columns(rows.positions.shape[1] // 3)))
+        frame = pd.concat(parts, axis=1)
         frame.insert(0, "subset", subset)
         frames.append(frame)
     return pd.concat(frames, ignore_index=True)
@@ -61,16 +76,21 @@ def read_subset(path: str | Path, subset: str) -> Samples:
         )
     is_command = frame.columns.str.match(r"u\d+$")
     is_coordinate = frame.columns.str.match(r"m\d+_[xyz]$")
-    return Samples(
-        np.ascontiguousarray(frame.loc[:, is_command].to_numpy(np.float64)),
-        np.ascontiguousarray(frame.loc[:, is_coordinate].to_numpy(np.float64)),
-    )
+    commands = np.ascontiguousarray(frame.loc[:, is_command].to_numpy(np.float64))
+    recording = None
+    if "order" in frame:
+        memory = np.ascontiguousarray(frame[memory_columns(commands.shape[1])].to_numpy(np.float64))
+        recording = Recording(frame["order"].to_numpy(np.int64), frame["session"].to_numpy(np.int64), memory)
+    positions = np.ascontiguousarray(frame.loc[:, is_coordinate].to_numpy(np.float64))
+    return Samples(commands, positions, recording)
 
 
 def content_hash(samples: Samples) -> str:
-    """SHA-256 (hex) over the numbers of one subset and their shapes."""
+    """SHA-256 (hex) over the numbers of one subset and their shapes; of its recording, too, where it has one."""
     digest = hashlib.sha256()
-    for array in (samples.commands, samples.positions):
+    recording = samples.recording
+    when = () if recording is None else (recording.order, recording.session, recording.memory)
+    for array in (samples.commands, samples.positions, *when):
         digest.update(f"{array.shape}".encode())
         digest.update(np.ascontiguousarray(array, dtype="<f8").tobytes())
     return digest.hexdigest()

@@ -86,3 +86,16 @@ def test_columns_that_tell_nothing_are_an_error(tmp_path: Path, content: str, wh
         guess_entry(path, "Arm", "arm.csv")
     assert raised.value.where == str(path)
     assert raised.value.fix
+
+
+def test_columns_of_time_and_session_are_guessed(tmp_path: Path) -> None:
+    path = tmp_path / "arm.csv"
+    frame = columns("u1", "u2", "x", "y", "z").assign(time=range(SIZE), run=[1] * 120 + [2] * 80)
+    frame.to_csv(path, index=False)
+    entry, reasons = guess_entry(path, "Arm", "arm.csv")
+    assert (entry["order"], entry["session"]) == ("time", "run")
+    assert any("order, session: guessed" in reason for reason in reasons)
+    frame.assign(run=[1, 2] * 100).to_csv(path, index=False)
+    entry, reasons = guess_entry(path, "Arm", "arm.csv")
+    assert "order" not in entry
+    assert any("left out, since time and run are none" in reason for reason in reasons)

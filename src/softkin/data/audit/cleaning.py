@@ -21,4 +21,4 @@ def cleaned(samples: Mapping[str, Samples]) -> tuple[dict[str, Samples], dict[st
     is_copy = duplicates(train) & ~is_stuck
     kept = ~(is_stuck | is_copy)
     removed = {"stuck_rows": int(is_stuck.sum()), "duplicate_rows": int(is_copy.sum())}
-    return {**samples, TRAIN: Samples(train.commands[kept], train.positions[kept])}, removed
+    return {**samples, TRAIN: train.take(kept)}, removed

@@ -13,16 +13,20 @@ from typing import Any
 import numpy as np
 
 from softkin.core.errors import DataError
+from softkin.core.recording import Recording
 from softkin.core.samples import EXTRAPOLATION, MAX_MAGNITUDE, SUBSETS, TRAIN, VALIDATION, Array, Samples
 from softkin.data import split
 from softkin.data.readers import columns, delimited_text, parquet_columns
 from softkin.data.readers.delimited_text import DelimitedText
 from softkin.data.readers.parquet_columns import ParquetColumns
+from softkin.data.recordings import recording_of
 
 logger = logging.getLogger("softkin")
 
 Table = DelimitedText | ParquetColumns
 
+#: Keys of the entry whose columns say when rows were recorded.
+WHEN = ("order", "session")
 #: Fewest rows that models can be fitted to (`train`) or scores computed from.
 MIN_ROWS = dict.fromkeys(SUBSETS, 2) | {TRAIN: 20}
 #: Split conformal prediction at 95 % needs 19 calibration rows.
@@ -52,18 +56,25 @@ def read(path: str | Path, *, dataset: str, source: Mapping[str, Any]) -> dict[s
         table = open_table(path, source.get("delimiter"))
         commands = columns.choose(table.names, source["commands"], "commands")
         coordinates = columns.choose(table.names, source["positions"], "positions")
-        by = columns.choose(table.names, [source["split"]["column"]], "split") if "column" in source["split"] else []
+        named = {
+            key: columns.choose(table.names, [column], key)[0]
+            for key, column in (("split", source["split"].get("column")), *((key, source.get(key)) for key in WHEN))
+            if column is not None
+        }
         chosen = [*commands, *coordinates]
         names = [table.names[place] for place in chosen]
         n_commands, dimensions = len(commands), source.get("dimensions", 3)
         columns.check(names[:n_commands], names[n_commands:], dimensions, source)
-        values, others = table.read(chosen, [place for place in by if place not in chosen])
-        others += [values[:, chosen.index(place)] for place in by if place in chosen]
+        others = [place for place in dict.fromkeys(named.values()) if place not in chosen]
+        values, read_others = table.read(chosen, others)
+        by_place = dict(zip(others, read_others, strict=True)) | dict(zip(chosen, values.T, strict=True))
+        by = {key: by_place[place] for key, place in named.items()}
         if not len(values):
             raise DataError("a header, but no row of numbers", fix="export the file again")
         _check_magnitudes(names, values, table.place)
-        samples = Samples(values[:, :n_commands], _spatial(values[:, n_commands:], dimensions))
-        subset_of = split.split(source["split"], samples.commands, others[0] if others else None, table.place)
+        recording = _recording(values[:, :n_commands], by, table.place)
+        samples = Samples(values[:, :n_commands], _spatial(values[:, n_commands:], dimensions), recording)
+        subset_of = split.split(source["split"], samples.commands, by.get("split"), table.place, recording)
         sizes = dict(zip(SUBSETS, np.bincount(subset_of, minlength=len(SUBSETS)).tolist(), strict=True))
         _check_sizes(sizes)
     except DataError as error:
@@ -75,7 +86,7 @@ def read(path: str | Path, *, dataset: str, source: Mapping[str, Any]) -> dict[s
         logger.warning("%s", DataError(what, where=where, fix=fix))
     del values
     return {
-        subset: Samples(samples.commands[rows], samples.positions[rows])
+        subset: samples.take(rows)
         for place, subset in enumerate(SUBSETS)
         if len(rows := np.flatnonzero(subset_of == place))
     }
@@ -95,6 +106,13 @@ def open_table(path: str | Path, delimiter: str | None = None) -> Table:
     if start.startswith(b"PAR1"):
         return parquet_columns.open_parquet(Path(path))
     return delimited_text.open_text(Path(path), delimiter)
+
+
+def _recording(commands: Array, by: Mapping[str, Any], place: Callable[[int], str]) -> Recording | None:
+    """The recording that the columns `by` of order and session tell; None where the entry names neither."""
+    if not any(key in by for key in WHEN):
+        return None
+    return recording_of(commands, by.get("order"), by.get("session"), place)
 
 
 def _spatial(positions: Array, dimensions: int) -> Array:

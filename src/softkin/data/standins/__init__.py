@@ -7,5 +7,6 @@ from softkin.data.standins.robot import StandIn
 
 #: Name of a simulated robot -> how its commands are drawn and its poses simulated.
 STANDINS: dict[str, StandIn] = {
-    spec.name: spec for spec in (pneumatic_arm.SPEC, tendon_finger.SPEC, tendon_finger.FRICTIONAL)
+    spec.name: spec
+    for spec in (pneumatic_arm.SPEC, tendon_finger.SPEC, tendon_finger.FRICTIONAL, tendon_finger.RECORDED)
 }

@@ -16,7 +16,8 @@ class StandIn:
 
     `draw(n_rows, rng)` returns commands (n_rows, n_commands), all distinct, in the order in which they are sent.
     `poses(commands, rng)` returns positions (n_rows, 3 * n_markers) in mm; a robot with memory starts from rest and
-    depends on that order. `title` is what tables call it.
+    depends on that order. `title` is what tables call it. `sessions` are the shares of the rows of each
+    session of a recording: it begins at rest, and its zero is off by `zero_mm` (n_coordinates,), standard deviations.
     """
 
     name: str
@@ -25,6 +26,8 @@ class StandIn:
     n_markers: int
     draw: Callable[[int, np.random.Generator], Array]
     poses: Callable[[Array, np.random.Generator], Array]
+    sessions: tuple[float, ...] = ()
+    zero_mm: tuple[float, ...] = ()
 
 
 def evenly(n_rows: int, n_commands: int, rng: np.random.Generator) -> Array:

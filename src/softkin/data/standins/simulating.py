@@ -9,7 +9,9 @@ import numpy as np
 
 from softkin.core.errors import ConfigError
 from softkin.core.samples import EXTRAPOLATION, SUBSETS, TEST, TRAIN, VALIDATION, Array, Samples
+from softkin.data.recordings import recording_of
 from softkin.data.standins import STANDINS
+from softkin.data.standins.robot import StandIn
 
 logger = logging.getLogger("softkin")
 
@@ -36,10 +38,24 @@ def simulate(name: str, *, n_rows: Mapping[str, int] | int, seed: int) -> dict[s
     drawing, measuring, splitting = np.random.default_rng(seed).spawn(3)
     commands = robot.draw(sum(sizes.values()), drawing)
     logger.info("simulating %s: %d rows, seed %d", robot.title, len(commands), seed)
-    positions = robot.poses(commands, measuring)
-    return {
-        subset: Samples(commands[rows], positions[rows]) for subset, rows in split(commands, sizes, splitting).items()
-    }
+    samples = (
+        in_sessions(robot, commands, measuring)
+        if robot.sessions
+        else Samples(commands, robot.poses(commands, measuring))
+    )
+    return {subset: samples.take(rows) for subset, rows in split(commands, sizes, splitting).items()}
+
+
+def in_sessions(robot: StandIn, commands: Array, rng: np.random.Generator) -> Samples:
+    """Poses of `commands` (n_rows, n_commands), recorded in this order in the robot's sessions."""
+    ends = np.round(np.cumsum(robot.sessions)[:-1] * len(commands)).astype(int)
+    parts = [part for part in np.split(np.arange(len(commands)), ends) if len(part)]
+    zeros = rng.standard_normal((len(parts), len(robot.zero_mm))) * robot.zero_mm
+    positions = np.concatenate(
+        [robot.poses(commands[part], rng) + zero for part, zero in zip(parts, zeros, strict=True)]
+    )
+    session = np.repeat(np.arange(1, len(parts) + 1), [len(part) for part in parts])
+    return Samples(commands, positions, recording_of(commands, None, session, lambda row: f"row {row}"))
 
 
 def subset_sizes(total: int) -> dict[str, int]:

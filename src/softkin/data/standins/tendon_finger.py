@@ -100,3 +100,11 @@ FRICTIONAL = StandIn(
     _bench_draw,
     _bench_poses,
 )
+#: Shares of the rows of each session, and how far its zero may be off: about those of FINGER.
+RECORDED = replace(
+    FRICTIONAL,
+    name="tendon_finger_recorded",
+    title="simulated tendon finger with friction and backlash, recorded in three sessions",
+    sessions=(0.46, 0.21, 0.33),
+    zero_mm=(1.5, 1.5, 0.2),
+)
