@@ -103,7 +103,7 @@ def test_five_nights_in_a_row(tmp_path: Path, mirror: Path) -> None:
     assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
 
     code, verdict = campaign(house, small)
-    assert (code, verdict["jobs_run"]) == (0, 0)
+    assert (code, verdict["jobs_run"]) == (0, 0), verdict
 
     file.write_text("\n".join(lines[:1601]) + "\n")
     code, verdict = campaign(house, small)

@@ -44,6 +44,7 @@ class Arguments:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a campaign; return its exit code."""
     asked = _parsed(arguments)
+    os.chdir(asked.directory)  # a store in a file is named from here
     results = asked.directory / "results"
     results.mkdir(parents=True, exist_ok=True)
     lock = FileLock(results / LOCK, timeout=0)

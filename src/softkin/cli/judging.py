@@ -88,10 +88,10 @@ def judge_results(results: Results, *, refit: bool) -> Verdict:
     facts = {**verdict.facts, "promoted": ", ".join(f"{one.name} {one.version}" for one in moved) or "none"}
     verdict = Verdict(verdict.outcome, verdict.reasons, verdict.changes, verdict.comparisons, facts)
     same_as = before.run_id if before and verdict.outcome == UNCHANGED else None
-    run_id = nights.log_night(
-        client, verdict=verdict.as_dict(), page=verdict.as_markdown(), summary=summary, rows=results.rows,
-        files={} if same_as else results.files(), started=results.started, same_as=same_as,
-    )  # fmt: skip
+    files = {} if same_as else results.files()
+    page = verdict.as_markdown()
+    record = nights.NightRecord(verdict.as_dict(), page, summary, results.rows, files, results.started, same_as)
+    run_id = nights.log_night(client, record)
     nights.move_champions(client, moved, list(summary["datasets"]), run_id)
     return verdict
 
@@ -103,10 +103,9 @@ def log_failure(results: Results, reasons: Sequence[str]) -> Verdict:
     known = (results.folder / "tables" / "summary.json").exists()
     if store.exists():
         client = nights.open_store(read_json(store)["tracking_uri"])
-        nights.log_night(
-            client, verdict=verdict.as_dict(), page=verdict.as_markdown(),
-            summary=results.summary() if known else None, rows=None, files={}, started=results.started, same_as=None,
-        )  # fmt: skip
+        summary = results.summary() if known else None
+        page = verdict.as_markdown()
+        nights.log_night(client, nights.NightRecord(verdict.as_dict(), page, summary, None, {}, results.started))
     return verdict
 
 

@@ -11,14 +11,10 @@ import sqlite3
 from collections.abc import Sequence
 from contextlib import closing
 from pathlib import Path
-from typing import TYPE_CHECKING
 from urllib.parse import quote, unquote, urlsplit
 
 from mlflow import MlflowClient
 from mlflow.entities import Run
-
-if TYPE_CHECKING:
-    from softkin.tracking.records import Record
 
 logger = logging.getLogger("softkin")
 
@@ -68,15 +64,14 @@ def folder_of(uri: str) -> Path:
     return Path(unquote(urlsplit(uri).path))
 
 
-def are_there(client: MlflowClient, run: Run, record: Record) -> bool:
-    """Whether the artifacts that the record names are where the store has them."""
-    wanted = [*(Path(file).name for file in record.files), *record.texts]
-    figures = [Path(file).name for file in record.figures]
-    place = urlsplit(str(run.info.artifact_uri))
-    if place.scheme == "file":
+def are_there(client: MlflowClient, run: Run, names: Sequence[str], figures: Sequence[str]) -> bool:
+    """Whether the artifacts of a run are where the store has them: those of these names, and in the folder of figures
+    those of these.
+    """
+    if urlsplit(str(run.info.artifact_uri)).scheme == "file":
         folder = folder_of(str(run.info.artifact_uri))
-        return all((folder / name).exists() for name in (*wanted, *(f"figures/{name}" for name in figures)))
-    return _listed(client, run, wanted, None) and _listed(client, run, figures, "figures")
+        return all((folder / name).exists() for name in (*names, *(f"figures/{name}" for name in figures)))
+    return _listed(client, run, names, None) and _listed(client, run, figures, "figures")
 
 
 def _listed(client: MlflowClient, run: Run, names: Sequence[str], folder: str | None) -> bool:

@@ -105,12 +105,18 @@ def log_champion(
         texts={"model_card.md": card},
         started=campaign.started,
     )
-    experiment = experiment_of(client, EXPERIMENT)
-    client.set_experiment_tag(experiment, NOTE, "The calibrated models of all datasets, a current run of each.")
-    client.set_experiment_tag(experiment, CHAMPIONS_TAG, champions_view())
+    experiment = _experiment(client)
     sweep(client, experiment, campaign=campaign.name, dataset=described["dataset"])
     run_id = put(client, experiment, record)
     return _version(client, name, run_id, record, Path(calibrated_model), model, level)
+
+
+def _experiment(client: MlflowClient) -> str:
+    """Id of the experiment of calibrated models, with its note and its view."""
+    experiment = experiment_of(client, EXPERIMENT)
+    client.set_experiment_tag(experiment, NOTE, "The calibrated models of all datasets, a current run of each.")
+    client.set_experiment_tag(experiment, CHAMPIONS_TAG, champions_view())
+    return experiment
 
 
 def _rows(table: pd.DataFrame, **wanted: str) -> pd.DataFrame:

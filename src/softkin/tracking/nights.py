@@ -47,6 +47,29 @@ class Night:
 
 
 @dataclass(frozen=True, slots=True)
+class NightRecord:
+    """What is logged of a campaign.
+
+    Parameters:
+        verdict: as JSON has it.
+        page: the verdict to read, Markdown.
+        summary: of the workflow's results, with the versions of its software; None where there are none.
+        rows: file of the rows that go with the summary; None where there are no new results.
+        files: folder among the artifacts ('' for the top) -> files.
+        started: seconds since the epoch.
+        same_as: run of the campaign whose results these are; None: they are new.
+    """
+
+    verdict: Mapping[str, Any]
+    page: str
+    summary: Mapping[str, Any] | None
+    rows: str | Path | None
+    files: Mapping[str, Sequence[str | Path]]
+    started: float
+    same_as: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Candidate:
     """A version that is not the champion, and what the champion is compared by; None: it was never judged."""
 
@@ -76,54 +99,27 @@ def night_of(client: MlflowClient, run_id: str) -> Night:
         return Night(run_id, read_json(files[SUMMARY]), pd.read_parquet(files[ROWS]))
 
 
-def log_night(
-    client: MlflowClient,
-    *,
-    verdict: Mapping[str, Any],
-    page: str,
-    summary: Mapping[str, Any] | None,
-    rows: str | Path | None,
-    files: Mapping[str, Sequence[str | Path]],
-    started: float,
-    same_as: str | None,
-) -> str:
-    """Log a campaign as a run of its own; return its id.
-
-    Parameters:
-        client: of the store.
-        verdict: as JSON has it.
-        page: the verdict to read, Markdown.
-        summary: of the workflow's results, with the versions of its software; None where there are none.
-        rows: file of the rows that go with the summary.
-        files: folder among the artifacts ('' for the top) -> files; not logged where nothing has changed.
-        started: seconds since the epoch.
-        same_as: run of the campaign whose results these are; None: they are new.
-    """
+def log_night(client: MlflowClient, record: NightRecord) -> str:
+    """Log a campaign as a run of its own; return its id."""
     experiment = experiment_of(client, EXPERIMENT)
+    summary, verdict = record.summary, record.verdict
     campaign = summary["campaign"] if summary else "unknown"
-    tags = {"kind": KIND, "campaign": campaign, "verdict": verdict["outcome"], NOTE: page, **_facts(verdict)}
-    if summary:
-        tags |= {"configuration_sha256": summary["configuration_sha256"]}
-        tags |= {"environment_sha256": summary["software_sha256"]}
-        for name, data in summary["datasets"].items():
-            tags |= {f"data_sha256.{name}": data["sha256"], f"deployed.{name}": _deployed(data["deployed"])}
-    if same_as:
-        tags["same_results_as"] = same_as
-    name = f"{campaign} · {time.strftime('%Y-%m-%d %H:%M', time.gmtime(started))}"
-    run_id = str(client.create_run(experiment, int(1000 * started), tags, name).info.run_id)
+    name = f"{campaign} · {time.strftime('%Y-%m-%d %H:%M', time.gmtime(record.started))}"
+    tags = {"kind": KIND, "campaign": campaign, **_tags(record)}
+    run_id = str(client.create_run(experiment, int(1000 * record.started), tags, name).info.run_id)
     now = int(1000 * time.time())
     metrics = [Metric(key, value, now, 0) for key, value in _metrics(verdict, summary).items()]
     for start in range(0, len(metrics), BATCH):
         client.log_batch(run_id, metrics=metrics[start : start + BATCH])
     client.log_text(run_id, json.dumps(verdict, indent=2, allow_nan=False), "verdict.json")
-    client.log_text(run_id, page, "verdict.md")
-    if summary and rows:
+    client.log_text(run_id, record.page, "verdict.md")
+    if summary and record.rows:
         client.log_text(run_id, json.dumps(summary, indent=2, allow_nan=False), SUMMARY)
-        client.log_artifact(run_id, str(rows))
-    for folder, paths in files.items():
+        client.log_artifact(run_id, str(record.rows))
+    for folder, paths in record.files.items():
         for path in paths:
             client.log_artifact(run_id, str(path), folder or None)
-    client.set_terminated(run_id, "FINISHED" if verdict["outcome"] != "failed" else "FAILED")
+    client.set_terminated(run_id, "FINISHED" if verdict["outcome"] not in WITHOUT_NUMBERS else "FAILED")
     if summary:
         columns = [f"metrics.`{dataset}/{metric}`" for metric in SHOWN for dataset in summary["datasets"]]
         view = campaigns_view(["tags.`verdict`", "metrics.`duration_seconds`", "metrics.`jobs_run`", *columns])
@@ -183,10 +179,18 @@ def open_store(tracking_uri: str) -> MlflowClient:
     return client_of(tracking_uri)
 
 
-def _facts(verdict: Mapping[str, Any]) -> dict[str, str]:
-    """The facts of a verdict that are short texts or numbers, as tags."""
+def _tags(record: NightRecord) -> dict[str, str]:
+    """What the run of a campaign says of itself in words."""
+    verdict, summary = record.verdict, record.summary
     known = ("commit", "jobs_run", "jobs_reused", "promoted")
-    return {name: str(verdict[name]) for name in known if verdict.get(name) is not None}
+    tags = {name: str(verdict[name]) for name in known if verdict.get(name) is not None}
+    tags |= {"verdict": verdict["outcome"], NOTE: record.page}
+    if summary:
+        tags |= {"configuration_sha256": summary["configuration_sha256"]}
+        tags |= {"environment_sha256": summary["software_sha256"]}
+        for name, data in summary["datasets"].items():
+            tags |= {f"data_sha256.{name}": data["sha256"], f"deployed.{name}": _deployed(data["deployed"])}
+    return tags | ({"same_results_as": record.same_as} if record.same_as else {})
 
 
 def _deployed(run: Mapping[str, str]) -> str:

@@ -13,6 +13,7 @@ import logging
 import time
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 from mlflow import MlflowClient
@@ -54,6 +55,10 @@ class Record:
     figures: Sequence[str] = ()
     texts: Mapping[str, str] = field(default_factory=dict)
 
+    def artifacts(self) -> tuple[list[str], list[str]]:
+        """The names of the artifacts at the top, and of those in the folder of figures."""
+        return [*(Path(file).name for file in self.files), *self.texts], [Path(file).name for file in self.figures]
+
     @property
     def hash(self) -> str:
         """SHA-256 (hex) of the content."""
@@ -80,7 +85,7 @@ def put(client: MlflowClient, experiment: str, record: Record, there: Sequence[R
         run_id = str(run.info.run_id)
         if PARENT in record.tags and run.data.tags.get(PARENT) != record.tags[PARENT]:
             client.set_tag(run_id, PARENT, record.tags[PARENT])
-        if not are_there(client, run, record):
+        if not are_there(client, run, *record.artifacts()):
             log_artifacts(client, run_id, record)
         _supersede(client, [other for other in old if other is not run], by=run_id)
         return run_id
@@ -99,7 +104,7 @@ def update(client: MlflowClient, experiment: str, record: Record) -> str:
     if not there:
         return put(client, experiment, record, [])
     run, run_id = there[0], str(there[0].info.run_id)
-    if run.data.tags.get(CONTENT) != record.hash or not are_there(client, run, record):
+    if run.data.tags.get(CONTENT) != record.hash or not are_there(client, run, *record.artifacts()):
         log_artifacts(client, run_id, record)
         if record.inputs:
             client.log_inputs(run_id, list(record.inputs))

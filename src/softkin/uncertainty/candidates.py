@@ -1,4 +1,4 @@
-"""Whether a configuration leaves an interval method that can be chosen for every dataset: known before anything runs."""
+"""Whether a configuration leaves an interval method that can be chosen for every dataset, before anything runs."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ def problems_of_methods(
     pool = [models[name] for name in config["models"]]
     if not any(_can_be_deployed(method, pool) for method in configured):
         yield (
-            f"interval_methods: of {', '.join(config['interval_methods'])} none is calibrated around every model, so no "
-            "calibrated model can be made; add scp_mapie"
+            f"interval_methods: of {', '.join(config['interval_methods'])} none is calibrated around every model, so "
+            "no calibrated model can be made; add scp_mapie"
         )
     quantile_methods = [method.name for method in configured if method.calibrated_on.needs_quantiles]
     if quantile_methods and not {PAPER, TUNED} & set(config["presets"]):

@@ -73,9 +73,9 @@ CASES = [
     BadInput("an empty subset", changed(lambda c: c["test"].update(motor_control=[])), ("no rows",)),
     BadInput("a row less", changed(lambda c: c["test"]["position"].pop()), ("different length", "subset 'test'")),
     BadInput("a coordinate less", changed(lambda c: c["test"]["position"][5][0].pop()), ("row 5", "3 values")),
-    BadInput("another number of commands", changed(lambda c: None, n_commands=3), ("expected 3 values",)),
-    BadInput("another number of markers", changed(lambda c: None, n_markers=2), ("expected 2 values",)),
-    BadInput("other rows than registered", changed(lambda c: None, rows={"test": 7}), ("120 rows", "registers 7")),
+    BadInput("another number of commands", changed(lambda _: None, n_commands=3), ("expected 3 values",)),
+    BadInput("another number of markers", changed(lambda _: None, n_markers=2), ("expected 2 values",)),
+    BadInput("other rows than registered", changed(lambda _: None, rows={"test": 7}), ("120 rows", "registers 7")),
     BadInput("positions that never move", changed(never_moves), ("never move",)),
     BadInput("one command alone", changed(one_command), ("distinct command",)),
 ]

@@ -22,6 +22,12 @@ with FileLock(sys.argv[1]):
 """
 
 
+@pytest.fixture(autouse=True)
+def _stay(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """A campaign works in its folder; the test comes back."""
+    monkeypatch.chdir(tmp_path)
+
+
 def ended(code: int = 1, signal: str = "") -> Ended:
     return Ended(code, signal, 1.5, 3, 10)
 

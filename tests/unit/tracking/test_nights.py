@@ -12,6 +12,7 @@ from softkin.tracking import Campaign
 from softkin.tracking.nights import (
     JUDGED_IN,
     Candidate,
+    NightRecord,
     candidates,
     last_night,
     log_night,
@@ -44,9 +45,7 @@ def logged(client: Any, folder: Path, outcome: str = "same", started: float = 1.
     verdict = {"outcome": outcome, "exit_code": 0, "duration_seconds": 9.5, "jobs_run": 3, "commit": "c"}
     sums = None if outcome == "failed" else keys.pop("summary", summary())
     files = {"": [folder / "report.html"]}
-    return log_night(
-        client, verdict=verdict, page="A page.", summary=sums, rows=rows, files=files, started=started, same_as=None
-    )
+    return log_night(client, NightRecord(verdict, "A page.", sums, rows, files, started))
 
 
 def test_a_campaign_is_a_run_of_its_own_with_all_headline_metrics(client: Any, tmp_path: Path) -> None:
