@@ -10,6 +10,7 @@ rule calibrate:
             "results/{{dataset}}/intervals/{method}.parquet",
             method=config["interval_methods"],
         ),
+        manifest=INTERVAL_MANIFEST,
         choice="results/{dataset}/interval_choice.csv",
         calibrated_model="results/{dataset}/calibrated_model.joblib",
     log:

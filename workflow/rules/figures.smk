@@ -6,10 +6,7 @@ rule draw_figures:
         description="results/{dataset}/dataset.json",
         data_card="results/{dataset}/data_card.json",
         models=MODEL_MANIFESTS,
-        intervals=expand(
-            "results/{{dataset}}/intervals/{method}.parquet",
-            method=config["interval_methods"],
-        ),
+        intervals=INTERVAL_MANIFEST,
         point="results/{dataset}/point_metrics.csv",
         interval_metrics="results/{dataset}/interval_metrics.csv",
         choice="results/{dataset}/interval_choice.csv",

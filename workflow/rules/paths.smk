@@ -99,6 +99,7 @@ SHELLS = ["results/{dataset}/shells.npz"] * asks_for("needs_shells")
 OTHER_SPACES = ["results/{dataset}/other_spaces.parquet"] * bool(COMPARED)
 
 
+INTERVAL_MANIFEST = f"results/{{dataset}}/intervals/{MANIFEST}"
 # All that the interval methods start from, of one dataset.
 STORED_OUTPUTS = {
     "models": MODEL_MANIFESTS,
@@ -162,5 +163,7 @@ def final_output():
 
 # A file that is missing or has changed since it was written counts as it would if a rule declared it.
 if workflow.is_main_process:
-    for manifest in of_every_dataset(MODEL_MANIFESTS + QUANTILE_MANIFESTS):
+    for manifest in of_every_dataset(
+        [*MODEL_MANIFESTS, *QUANTILE_MANIFESTS, INTERVAL_MANIFEST]
+    ):
         renew_manifest(manifest)

@@ -7,10 +7,7 @@ rule score:
         **STORED_OUTPUTS,
         table="results/{dataset}/table.parquet",
         other_spaces=OTHER_SPACES,
-        intervals=expand(
-            "results/{{dataset}}/intervals/{method}.parquet",
-            method=config["interval_methods"],
-        ),
+        intervals=INTERVAL_MANIFEST,
         choice="results/{dataset}/interval_choice.csv",
     output:
         point="results/{dataset}/point_metrics.csv",

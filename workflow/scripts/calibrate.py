@@ -1,7 +1,7 @@
 """Rule calibrate: put the intervals of every method around a dataset's models; choose one, with its model a file."""
 
 from softkin.core.job import job
-from softkin.core.manifest import files_of_runs
+from softkin.core.manifest import files_of_runs, write_manifest
 from softkin.core.runs import Run
 from softkin.models import MODELS
 from softkin.training.selection import deployable_runs
@@ -37,3 +37,4 @@ with job(snakemake.log[0], f"calibrate {dataset}"):
         shells=next(iter(files.shells), None),
         output=output.calibrated_model,
     )
+    write_manifest(output.manifest, output.intervals)

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from softkin.core.files import read_json
 from softkin.core.job import job
-from softkin.core.manifest import files_of_runs
+from softkin.core.manifest import files_of, files_of_runs
 from softkin.models import MODELS
 from softkin.models.quantile import QUANTILE_MODELS
 from softkin.reporting.figures import FIGURES
@@ -25,7 +25,7 @@ with job(snakemake.log[0], f"draw figures {dataset}"):
         table=Path(files.table),
         predictions=files_of_runs(files.models, params.runs, "predictions.parquet"),
         trials={run.model: path for run, path in trials.items()},
-        intervals=dict(zip(params.methods, map(Path, files.intervals), strict=True)),
+        intervals=files_of(files.intervals, {name: f"{name}.parquet" for name in params.methods}),
         point=Path(files.point),
         interval_metrics=Path(files.interval_metrics),
         choice=Path(files.choice),

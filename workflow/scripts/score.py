@@ -1,7 +1,7 @@
 """Rule score: predictions and intervals of one dataset beside the truth."""
 
 from softkin.core.job import job
-from softkin.core.manifest import files_of_runs
+from softkin.core.manifest import files_of, files_of_runs
 from softkin.core.runs import OUTER, Run
 from softkin.core.samples import SUBSETS
 from softkin.data.table import read_subset
@@ -21,7 +21,7 @@ files, params, output, dataset = snakemake.input, snakemake.params, snakemake.ou
 predictions = files_of_runs(files.models, params.runs, "predictions.parquet")
 parameters = files_of_runs(files.models, params.searched, "parameters.json")
 methods = {name: INTERVAL_METHODS[name] for name in params.methods}
-intervals = dict(zip(methods, files.intervals, strict=True))
+intervals = files_of(files.intervals, {name: f"{name}.parquet" for name in methods})
 # Methods for extrapolation have nothing to show on test.
 in_domain = {name: intervals[name] for name in methods if not methods[name].calibrated_on.is_for_extrapolation}
 

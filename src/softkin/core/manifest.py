@@ -1,19 +1,21 @@
-"""Manifests: one small file that stands for all files of a model's job, as long as each is there and as it was.
+"""Manifests: one small file that stands for all files of a job, as long as each is there and as it was.
 
-Snakemake spends a third of a millisecond on each file that a rule declares as an input, and a dataset's models have 150
-files that six rules read. So these rules declare the manifests, and find the files beside them.
+Snakemake spends a quarter of a millisecond on each file that a rule declares as an input, and a dataset's models have
+150 files that six rules read. So these rules declare the manifests, and find the files beside them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import TypeVar
 
 from softkin.core.errors import DataError
 from softkin.core.files import read_json, sha256_of, write_json
 from softkin.core.runs import Run
 
-#: Its name, in the folder of a model, whose presets have a folder each.
+Name = TypeVar("Name", bound=Hashable)
+#: Its name: in the folder of a model, whose presets have a folder each, and in that of intervals.
 MANIFEST = "manifest.json"
 
 
@@ -40,18 +42,25 @@ def renew_manifest(manifest: str | Path) -> None:
         write_manifest(path, hashes)
 
 
-def files_of_runs(manifests: Iterable[str | Path], runs: Iterable[Sequence[str]], name: str) -> dict[Run, Path]:
+def files_of(manifest: str | Path, names: Mapping[Name, str]) -> dict[Name, Path]:
+    """Where the files of these relative paths are, by name and in their order.
+
+    Raises `DataError` where the manifest does not hold one of them.
+    """
+    folder, held = Path(manifest).parent, read_json(manifest)
+    for file in names.values():
+        if file not in held:
+            raise DataError(f"{file} is missing", where=manifest, fix="delete this file and run again")
+    return {name: folder / file for name, file in names.items()}
+
+
+def files_of_runs(manifests: Iterable[str | Path], runs: Iterable[Sequence[str]], file: str) -> dict[Run, Path]:
     """The file of this name of each of `runs` (model, preset), in their order, by the manifests of their models.
 
     Raises `DataError` where a manifest does not hold it.
     """
-    held = {Path(path).parent.name: (Path(path).parent, read_json(path)) for path in manifests}
-    files = {}
+    of_model = {Path(manifest).parent.name: manifest for manifest in manifests}
+    files: dict[Run, Path] = {}
     for model, preset in runs:
-        folder, hashes = held[model]
-        if f"{preset}/{name}" not in hashes:
-            raise DataError(
-                f"{preset}/{name} is missing", where=folder / MANIFEST, fix="delete this file and run again"
-            )
-        files[Run(model, preset)] = folder / preset / name
+        files |= files_of(of_model[model], {Run(model, preset): f"{preset}/{file}"})
     return files
