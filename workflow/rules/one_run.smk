@@ -1,10 +1,11 @@
 # One run at a time in a folder, see src/softkin/cli/one_run.py; what a killed run has left is cleared before anything is
-# looked at. No rule of its own.
+# looked at, and results that are not as they were written are made anew. No rule of its own.
 import json
 import shlex
 import sys
 
 from softkin.cli.one_run import OneRun, only_looks
+from softkin.cli.redo import redo_damaged
 
 # Snakemake (9.27.1) writes the interpreter into command lines as it is: with a blank in its path no script would start.
 sys.executable = shlex.quote(sys.executable)
@@ -33,3 +34,6 @@ def count_jobs():
 if workflow.is_main_process and not only_looks(sys.argv):
     RUN = OneRun.of(Path.cwd())
     take_folder()
+if workflow.is_main_process:
+    for damaged in redo_damaged(only_say=only_looks(sys.argv)):
+        print(f"softkin: {damaged}.", file=sys.stderr)

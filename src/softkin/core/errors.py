@@ -45,5 +45,9 @@ class RetrievalError(SoftkinError):
     """A dataset's file cannot be downloaded, or is not the file that was expected."""
 
 
+class ResultError(SoftkinError):
+    """A result file is not what softkin wrote."""
+
+
 class StoreError(SoftkinError):
     """The MLflow store cannot be opened or does not hold what it should."""

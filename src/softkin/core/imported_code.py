@@ -22,6 +22,7 @@ WITHOUT_EFFECT = {
     "softkin.core.durations": "words of the log",
     "softkin.core.errors": "what is said when there is no result",
     "softkin.core.files": "how a file is put in place, whatever it holds",
+    "softkin.core.job_records": "notices what was not written by softkin",
     "softkin.core.job": "log and stopwatch of a job",
 }
 #: Modules that a rule uses only where the configuration or a wildcard names them: registries, whose named entries are

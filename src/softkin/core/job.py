@@ -7,7 +7,7 @@ import os
 import sys
 import time
 import traceback
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,6 +16,7 @@ from types import TracebackType
 from softkin.core.clocks import used
 from softkin.core.credentials import hide_known
 from softkin.core.errors import SoftkinError
+from softkin.core.job_records import forget_job, record_job
 
 logger = logging.getLogger("softkin")
 
@@ -38,13 +39,18 @@ def _print_discreetly(kind: type[BaseException], error: BaseException, trace: Tr
 
 
 @contextmanager
-def job(log: str, label: str) -> Iterator[None]:
+def job(log: str, label: str, outputs: Iterable[str] = ()) -> Iterator[None]:
     """Run a job: messages go to the file `log` and, from level INFO, to the terminal, marked with the time of day and
     `label`. Under `ON_A_SCREEN` nothing goes to the terminal, and what libraries write to it goes to the file.
+
+    Where it succeeds, what it wrote is recorded: the hashes of its `outputs` (`softkin.core.job_records`).
 
     A `SoftkinError` ends the job with its message alone and exit status 1; any other exception is a defect of softkin
     and keeps its traceback, also in the log file.
     """
+    written = list(outputs)
+    if written:
+        forget_job(log)
     Path(log).parent.mkdir(parents=True, exist_ok=True)
     file = Path(log).open("w", encoding="utf-8")  # noqa: SIM115 (closed below, after the handlers that write to it)
     to_file = logging.StreamHandler(file)
@@ -61,6 +67,8 @@ def job(log: str, label: str) -> Iterator[None]:
     try:
         with _terminal_into(file.fileno()) if screen else nullcontext():
             yield
+        if written:
+            record_job(log, written)
     except SoftkinError as error:
         logger.error("%s", error)
         raise SystemExit(1) from error

@@ -10,8 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from softkin.core.errors import DataError
+from softkin.core.errors import DataError, ResultError
 from softkin.core.files import file_sha256, write_json
+from softkin.core.job_records import recorded_sha256
 from softkin.core.samples import CONSTANT_RANGE_MM, TRAIN, Samples, coordinate_columns, informative_coordinates
 from softkin.data.readers import READERS
 from softkin.data.recordings import description as recording_description
@@ -55,7 +56,9 @@ def prepare(
 
     Raises:
         DataError: the file is not what its entry says.
+        ResultError: the file was changed since it was retrieved.
     """
+    sha256 = _checked_hash(raw, source, dataset)
     samples = READERS[source["format"]](raw, dataset=dataset, source=source)
     sizes = {subset: len(rows) for subset, rows in samples.items()}
     _check_sizes(sizes, source, f"dataset '{dataset}', file {raw}")
@@ -75,7 +78,7 @@ def prepare(
     write_table(frame, table)
     about = {
         "dataset": dataset,
-        "sha256": source.get("sha256") or file_sha256(raw),
+        "sha256": sha256,
         "removed_from_train": removed,
         "is_cut": max_rows is not None and any(size > max_rows for size in sizes.values()),
     }
@@ -95,6 +98,19 @@ def _description(samples: Mapping[str, Samples], source: Mapping[str, Any]) -> d
         "content_sha256": {subset: content_hash(rows) for subset, rows in samples.items()},
         "constant_coordinates": _constant_coordinates(train),
     }
+
+
+def _checked_hash(raw: str | Path, source: Mapping[str, Any], dataset: str) -> str:
+    """SHA-256 (hex) of the retrieved file, checked by its entry or, for a file of one's own, by what was recorded."""
+    actual = file_sha256(raw)
+    expected = source.get("sha256") or recorded_sha256(raw) or actual
+    if actual != expected:
+        raise ResultError(
+            f"its sha256 is {actual}, expected {expected}: it was changed since it was retrieved",
+            where=f"dataset '{dataset}', file {raw}",
+            fix="delete it and run again",
+        )
+    return actual
 
 
 def _check_sizes(sizes: Mapping[str, int], source: Mapping[str, Any], where: str) -> None:

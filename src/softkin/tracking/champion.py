@@ -13,7 +13,6 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
-import joblib
 import mlflow.pyfunc
 import pandas as pd
 from mlflow import MlflowClient
@@ -26,6 +25,7 @@ from mlflow.utils.mlflow_tags import MLFLOW_MODEL_VERSIONS
 import softkin
 from softkin.core.distributions import installed
 from softkin.core.files import sha256_of
+from softkin.core.job_records import load_model
 from softkin.core.runs import nearest_level
 from softkin.core.samples import command_columns, coordinate_columns
 from softkin.tracking import served_model
@@ -75,7 +75,7 @@ def log_champion(
     """
     client = client_of(campaign.tracking_uri)
     described = read_description(description, data_card)
-    model: CalibratedModel = joblib.load(calibrated_model)
+    model: CalibratedModel = load_model(calibrated_model)
     name = f"softkin-{described['dataset']}"
     key = {"model": model.spec.name, "preset": model.preset}
     scores = _rows(pd.read_csv(point), **key)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from softkin.core.errors import ConfigError, DataError
 from softkin.core.files import replacing
+from softkin.core.job_records import load_model
 from softkin.core.run_archive import read_run_archive
 from softkin.core.runs import Run
 from softkin.core.samples import TRAIN, VALIDATION, Array, Samples, informative_coordinates
@@ -237,7 +238,7 @@ def build_calibrated_model(
         archive = read_run_archive(shells)
         extrapolation = {"shells": shells_of(archive, train)[run], "norm": norm_of(archive)}
     robot = calibrated(
-        FittedModel(dataset, specs[run.model], run.preset, joblib.load(models[run]), train),
+        FittedModel(dataset, specs[run.model], run.preset, load_model(models[run]), train),
         methods[best["interval_method"]],
         read_subset(table, VALIDATION),
         **extrapolation,

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import shutil
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -11,8 +12,9 @@ import pandas as pd
 import pytest
 import yaml
 
-from softkin.core.errors import DataError
-from softkin.core.files import read_json
+from softkin.core.errors import DataError, ResultError
+from softkin.core.files import file_sha256, read_json
+from softkin.core.job_records import record_job
 from softkin.core.samples import SUBSETS, Samples
 from softkin.data.prepare import MM_PER_UNIT, prepare
 from softkin.data.table import read_subset
@@ -24,12 +26,13 @@ PUBLISHED = [name for name, source in SOURCES.items() if "urls" in source]
 
 
 def entry(**changes: Any) -> dict[str, Any]:
-    base = {"title": "Arm", "format": "kinn_json", "file": "arm.json", "sha256": "0" * 64, "position_unit": "mm"}
+    base = {"title": "Arm", "format": "kinn_json", "file": "arm.json", "position_unit": "mm"}
     return base | {"n_commands": 3, "n_markers": 2, "rows": SIZES} | changes
 
 
 def run(folder: Path, source: dict[str, Any], **options: Any) -> tuple[Path, Any]:
     (folder / "raw.json").write_text(json.dumps(published_json(four_subsets(SIZES, n_commands=3, n_markers=2))))
+    source = {"sha256": file_sha256(folder / "raw.json")} | source
     table, description = folder / "table.parquet", folder / "dataset.json"
     prepare(folder / "raw.json", dataset="arm", source=source, table=table, description=description, **options)
     return table, read_json(description)
@@ -122,3 +125,18 @@ def test_rows_that_are_cleaned_away_are_counted(tmp_path: Path) -> None:
     assert written_description["rows"] == SIZES | {"train": 28}
     assert not written_description["is_cut"]
     assert len(read_subset(table, "train")) == 28
+
+
+def test_a_file_that_was_changed_since_it_was_retrieved_is_refused(tmp_path: Path) -> None:
+    """By the hash of its entry, and by the record of `retrieve` for a file of one's own."""
+    with pytest.raises(ResultError, match=r"sha256 is [0-9a-f]{64}, expected 0000"):
+        run(tmp_path, entry(sha256="0" * 64))
+    raw = tmp_path / "arm" / "raw"
+    raw.parent.mkdir()
+    shutil.copy(tmp_path / "raw.json", raw)
+    record_job(tmp_path / "logs" / "retrieve" / "arm.log", [raw])
+    options: dict[str, Any] = {"table": tmp_path / "table.parquet", "description": tmp_path / "dataset.json"}
+    prepare(raw, dataset="arm", source=entry(), **options)
+    raw.write_text(raw.read_text() + " ")
+    with pytest.raises(ResultError, match="changed since it was retrieved"):
+        prepare(raw, dataset="arm", source=entry(), **options)

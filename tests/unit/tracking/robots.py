@@ -11,6 +11,7 @@ import joblib
 import pandas as pd
 
 from softkin.core.files import write_json
+from softkin.core.job_records import record_job
 from softkin.core.samples import SUBSETS
 from softkin.models import MODELS
 from softkin.training.kinematic_model import FitSettings, fitted_model
@@ -61,6 +62,12 @@ def interval_metrics(method: str = "scp_spread") -> pd.DataFrame:
     )
 
 
+def put_model(path: Path, model: CalibratedModel) -> None:
+    """Write a calibrated model as its job does."""
+    joblib.dump(model, path)
+    record_job(path.parent / "logs" / "calibrate.log", [path])
+
+
 def champion_files(folder: Path) -> dict[str, Any]:
     """Arguments of `log_champion`, as files in `folder`."""
     names = {"description": "dataset.json", "data_card": "data_card.json", "point": "point.csv"}
@@ -68,7 +75,7 @@ def champion_files(folder: Path) -> dict[str, Any]:
     files: dict[str, Any] = {name: folder / file for name, file in names.items()}
     write_json(files["description"], DESCRIPTION)
     write_json(files["data_card"], {"findings": [LEAK]})
-    joblib.dump(robot(), files["calibrated_model"])
+    put_model(files["calibrated_model"], robot())
     point_metrics().to_csv(files["point"], index=False)
     interval_metrics().to_csv(files["intervals"], index=False)
     return files | {"parent": "the-campaign"}

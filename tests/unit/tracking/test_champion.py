@@ -21,7 +21,7 @@ from softkin.core.files import write_json
 from softkin.tracking import Campaign, log_champion, records
 from tests.conftest import bending_arm
 from tests.unit.tracking.conftest import client_of_store
-from tests.unit.tracking.robots import DESCRIPTION, champion_files, interval_metrics, robot, with_shells
+from tests.unit.tracking.robots import DESCRIPTION, champion_files, interval_metrics, put_model, robot, with_shells
 
 NAME = "softkin-finger"
 
@@ -107,7 +107,7 @@ def test_the_same_content_is_no_new_version(campaign: Campaign, files: dict[str,
 @pytest.mark.parametrize(
     "change",
     [
-        lambda files: joblib.dump(robot(seed=1), files["calibrated_model"]),
+        lambda files: put_model(files["calibrated_model"], robot(seed=1)),
         lambda files: write_json(files["data_card"], {"findings": []}),
     ],
     ids=["another model", "another card"],
@@ -144,7 +144,7 @@ def test_a_result_that_returns_gets_its_version_back(
 def test_a_model_with_shells_is_scored_by_the_intervals_that_it_gives(
     campaign: Campaign, files: dict[str, Any]
 ) -> None:
-    joblib.dump(with_shells(robot()), files["calibrated_model"])
+    put_model(files["calibrated_model"], with_shells(robot()))
     everywhere = interval_metrics("auto").assign(coverage=0.75)
     pd.concat([interval_metrics(), everywhere]).to_csv(files["intervals"], index=False)
     log_champion(campaign, **files)

@@ -10,6 +10,7 @@ import pandas as pd
 import pytest
 
 from softkin.core.errors import ConfigError, DataError
+from softkin.core.job_records import record_job
 from softkin.core.run_archive import RunArchive
 from softkin.core.runs import Run
 from softkin.core.samples import SUBSETS, Array, Samples
@@ -31,6 +32,7 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> Path:
     write_table(to_table(subsets), folder / "table.parquet")
     train = subsets["train"]
     joblib.dump(fitted_model(MODELS["gp"], SETTINGS, train), folder / "model.joblib")
+    record_job(folder / "logs" / "fit_model.log", [folder / "model.joblib"])
     norms = np.linalg.norm(train.commands, axis=1)
     shared: dict[str, Any] = {"centre": np.zeros(2), "scale": np.ones(2)}
     of_runs = {}

@@ -1,0 +1,152 @@
+from __future__ import annotations
+
+import os
+import pickle
+import shutil
+import time
+from pathlib import Path
+
+import joblib
+import pytest
+
+from softkin.core.errors import ResultError
+from softkin.core.files import read_json
+from softkin.core.job import job
+from softkin.core.job_records import damages, forget_job, load_model, record_job, record_of, recorded_sha256
+
+LOG = Path("results/logs/fit_model/finger/gp.log")
+MODEL = Path("results/finger/gp/tuned/model.joblib")
+FIGURES = Path("results/finger/figures")
+
+
+@pytest.fixture
+def results(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A model with its fit, and a folder of figures."""
+    monkeypatch.chdir(tmp_path)
+    MODEL.parent.mkdir(parents=True)
+    FIGURES.mkdir()
+    joblib.dump({"weights": [1.0, 2.0]}, MODEL, compress=3)
+    (MODEL.parent / "fit.json").write_text('{"seconds": 1.5}')
+    for name in ("a.png", "index.csv", ".snakemake_timestamp"):
+        (FIGURES / name).write_text(name)
+    record_job(LOG, [str(MODEL), str(MODEL.parent / "fit.json")])
+    record_job("results/logs/draw_figures/finger.log", [FIGURES])
+    return Path("results")
+
+
+def found(results: Path, *, thorough: bool = False) -> list[tuple[str, str, str, str]]:
+    return [(d.path.as_posix(), d.what, d.output.as_posix(), d.job) for d in damages(results, thorough=thorough)]
+
+
+def later(path: Path) -> None:
+    os.utime(path, ns=(0, path.stat().st_mtime_ns + 1_000_000_000))
+
+
+def test_each_job_has_a_record_of_its_own() -> None:
+    assert record_of("/a/logs/b/results/logs/build_tables.log") == Path("/a/logs/b/results/manifest/build_tables.json")
+    assert record_of(LOG) == Path("results/manifest/finger/fit_model.gp.json")
+    assert record_of("results/logs/prepare/finger.log") == Path("results/manifest/finger/prepare.json")
+
+
+@pytest.mark.parametrize("thorough", [False, True])
+def test_what_is_as_it_was_written_is_not_damaged(results: Path, thorough: bool) -> None:
+    assert found(results, thorough=thorough) == []
+    (FIGURES / ".snakemake_timestamp").write_text("another time")
+    assert found(results, thorough=thorough) == []
+
+
+@pytest.mark.parametrize("thorough", [False, True])
+def test_edited_cut_swapped_and_deleted_files_are_named_with_their_job(results: Path, thorough: bool) -> None:
+    fit = MODEL.parent / "fit.json"
+    fit.write_text(fit.read_text().replace("1.5", "1.6"))
+    later(fit)
+    MODEL.unlink()
+    (FIGURES / "index.csv").write_bytes(b"ind")
+    assert sorted(found(results, thorough=thorough)) == [
+        ("results/finger/figures/index.csv", "changed", "results/finger/figures", "draw_figures finger"),
+        (fit.as_posix(), "changed", fit.as_posix(), "fit_model finger gp"),
+        (MODEL.as_posix(), "missing", MODEL.as_posix(), "fit_model finger gp"),
+    ]
+
+
+def test_a_change_that_keeps_size_and_time_is_found_by_reading(results: Path) -> None:
+    fit = MODEL.parent / "fit.json"
+    before = fit.stat().st_mtime_ns
+    fit.write_text(fit.read_text().replace("1.5", "1.6"))
+    os.utime(fit, ns=(before, before))
+    assert found(results) == []
+    assert [name for name, *_ in found(results, thorough=True)] == [fit.as_posix()]
+
+
+def test_other_times_alone_are_read_once(results: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for path in (MODEL, FIGURES / "a.png"):
+        later(path)
+    assert found(results) == []
+
+    def read(path: Path) -> str:
+        raise AssertionError(f"{path} was read again")
+
+    monkeypatch.setattr("softkin.core.job_records.file_sha256", read)
+    assert found(results) == []
+
+
+def test_a_folder_that_is_gone_was_removed_on_purpose(results: Path) -> None:
+    shutil.rmtree(results / "finger")
+    assert found(results) == []
+
+
+@pytest.mark.parametrize(
+    "content", ["", "{", "[]", '{"files": {"a": 1}, "job": "x"}', '{"job": "x"}', '{"files": 3, "job": ""}']
+)
+def test_a_record_that_is_none_records_nothing(results: Path, content: str) -> None:
+    record_of(LOG).write_text(content)
+    assert found(results) == []
+    assert recorded_sha256(MODEL) is None
+    with pytest.raises(ResultError, match="no record"):
+        load_model(MODEL)
+
+
+def test_a_model_is_loaded_by_any_path_to_it(results: Path, tmp_path: Path) -> None:
+    del results
+    assert load_model(MODEL) == load_model(tmp_path / MODEL) == {"weights": [1.0, 2.0]}
+
+
+class Attack:
+    """Unpickling one makes a file."""
+
+    def __reduce__(self) -> tuple[object, tuple[str]]:
+        return os.mkdir, ("hit",)
+
+
+@pytest.mark.parametrize("place", [MODEL, Path("results/finger/lr/paper/model.joblib"), Path("elsewhere.joblib")])
+def test_what_softkin_did_not_write_is_never_unpickled(results: Path, place: Path) -> None:
+    del results
+    place.parent.mkdir(parents=True, exist_ok=True)
+    place.write_bytes(pickle.dumps(Attack()))
+    with pytest.raises(ResultError) as error:
+        load_model(place)
+    assert not Path("hit").exists()
+    assert str(place) in str(error.value)
+    joblib.load(place)
+    assert Path("hit").exists()  # the attack is one
+
+
+def test_a_job_records_what_it_wrote_when_it_succeeds(results: Path, tmp_path: Path) -> None:
+    del results
+    log, output = "results/logs/prepare/finger.log", Path("results/finger/table.parquet")
+    with job(log, "prepare", [str(output)]):
+        output.write_text("rows")
+    assert set(read_json(record_of(log))["files"]) == {"results/finger/table.parquet"}
+    with pytest.raises(ZeroDivisionError), job(log, "prepare", [str(output)]):
+        1 / 0  # noqa: B018
+    assert not record_of(log).exists()
+    assert recorded_sha256(tmp_path / output) is None
+    forget_job(log)
+
+
+def test_a_record_takes_little_time(results: Path) -> None:
+    del results
+    (MODEL.parent / "fit.json").write_bytes(os.urandom(4_000_000))
+    start = time.process_time()
+    record_job(LOG, [MODEL, MODEL.parent / "fit.json", FIGURES])
+    assert time.process_time() - start < 0.05
