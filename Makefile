@@ -2,17 +2,18 @@
 PYTHON ?= python3
 CORES ?= 2
 IN ?= .
+PORT ?= 5000
 BIN := .venv/bin
 # What a person gives: recipes read it from their environment, "$$FILE", as it is. Written into a recipe as $(FILE) a quote
 # or a $(...) in it would be run by the shell, and a $(...) by make.
-GIVEN := PYTHON CORES IN FILE NAME WRITE
+GIVEN := PYTHON CORES IN FILE NAME WRITE PORT KEEP NOTIFY
 $(foreach name,$(GIVEN),$(eval override $(name) := $$(value $(name))))
 export $(GIVEN)
 export MLFLOW_DISABLE_TELEMETRY := true
 # Things run side by side, one core each: with more threads than that they wait for each other most of the time.
 export OMP_NUM_THREADS := 1
 
-.PHONY: run demo unlock new-robot test test-workflow test-others test-run lint ui store report gallery numbers results-page
+.PHONY: help run demo campaign refit prune unlock new-robot test test-workflow test-others test-run lint ui store report gallery numbers results-page
 .PHONY: snakemake-report campaigns campaign-slurm coverage standins timings benchmark benchmark-large benchmark-pruning benchmark-shells
 .PHONY: benchmark-figures benchmark-commands benchmark-many-robots
 .PHONY: environment clean ui-screenshot bad-inputs-page
@@ -53,10 +54,22 @@ lint: .venv/installed-dev
 	$(BIN)/snakemake --lint
 	$(BIN)/mypy
 
-# The link opens what MLflow hides behind *Model training*. IN: the folder of the run, such as results/demo.
+# MLflow's UI on the store of the last run, with links to its views. IN: the folder of the run, such as results/demo.
 ui: .venv/installed
-	@echo "http://127.0.0.1:5000/#/experiments?workflowType=machine_learning"
-	cd -- "$$IN" && MLFLOW_SERVER_ENABLE_JOB_EXECUTION=false "$(CURDIR)/$(BIN)/mlflow" ui --host 127.0.0.1 --workers 1
+	@$(BIN)/python -m softkin.cli.ui --directory="$$IN" --port="$$PORT"
+
+# One unattended run with a verdict: 0 same or better, 1 failed, 3 worse, 4 data for a person, 75 another one goes on.
+# NOTIFY: a command that gets the verdict on its standard input.
+campaign: .venv/installed
+	$(BIN)/python -m softkin.cli.campaign --cores="$$CORES" $${NOTIFY:+--notify="$$NOTIFY"}
+
+# The same, with everything redone: the same numbers must come out.
+refit: .venv/installed
+	$(BIN)/python -m softkin.cli.campaign --cores="$$CORES" --refit $${NOTIFY:+--notify="$$NOTIFY"}
+
+# Remove all campaigns but the last KEEP from MLflow, and what was superseded before them; it says what.
+prune: .venv/installed
+	@$(BIN)/python -m softkin.cli.prune --keep="$${KEEP:?make prune KEEP=50}" --yes
 
 # Make the MLflow store anew, or bring it up to date, from results/.
 store: .venv/installed

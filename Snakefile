@@ -2,16 +2,11 @@
 #
 #     retrieve -> prepare -> fit (tune, fit, predict) -> refit -> calibrate -> score -> tables -> report
 #                    \-> audit                                                   \-> figures -> track (MLflow)
-import gc
 from pathlib import Path
 
 from snakemake.utils import min_version
 
 min_version("9.0")
-
-# What Snakemake builds before its first job is no garbage: looking for some takes a tenth of a large dry run.
-if workflow.is_main_process:
-    gc.disable()
 
 
 report: "workflow/report/workflow.rst"
@@ -45,8 +40,7 @@ rule all:
 
 
 onstart:
-    gc.enable()
-    count_jobs()
+    start_of_jobs()
     warn_of_stand_ins()
     watch()
 

@@ -31,6 +31,7 @@ LISTED = {
     "target_spaces": TARGET_SPACES,
     "objective": OBJECTIVES,
     "regime": REGIMES,
+    "promote": ("auto", "manual"),
     "when_unreachable": ("simulate", "fail"),
     "position_unit": MM_PER_UNIT,
     "dimensions": (2, 3),
@@ -135,6 +136,6 @@ def test_files_that_the_schema_names_are_there() -> None:
 def test_every_key_of_the_configuration_is_explained() -> None:
     text = (HOUSE / "config" / "README.md").read_text()
     entry = SCHEMA["properties"]["sources"]["additionalProperties"]["properties"]
-    nested = [SCHEMA["properties"][key]["properties"] for key in ("tuning", "refitting", "shells")]
+    nested = [SCHEMA["properties"][key]["properties"] for key in ("tuning", "refitting", "shells", "verdict")]
     for key in [*SCHEMA["properties"], *(key for keys in nested for key in keys), *entry]:
         assert f"`{key}`" in text, f"config/README.md does not explain `{key}`"

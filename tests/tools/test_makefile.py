@@ -76,10 +76,11 @@ def test_a_file_may_have_any_name(house: Path, value: str) -> None:
 @pytest.mark.parametrize("value", VALUES)
 def test_every_other_variable_is_text_too(house: Path, value: str) -> None:
     assert heard(house, "run", CORES=value) == ["--cores", value]
-    folder = value.replace("/", "_")[:200]
-    (house / folder).mkdir()
-    assert heard(house, "ui", IN=folder)[0] == "ui"
-    assert (house / "heard.folder").read_text() == f"{house / folder}\n"
+    module = ["-m", "softkin.cli.ui"]
+    assert heard(house, "ui", IN=value, PORT=value) == [*module, f"--directory={value}", f"--port={value}"]
+    module = ["-m", "softkin.cli.campaign"]
+    assert heard(house, "campaign", NOTIFY=value) == [*module, "--cores=2", f"--notify={value}"]
+    assert heard(house, "prune", KEEP=value) == ["-m", "softkin.cli.prune", f"--keep={value}", "--yes"]
 
 
 def test_variables_of_the_environment_are_text_too(house: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -91,7 +91,7 @@ def test_five_nights_in_a_row(tmp_path: Path, mirror: Path) -> None:
         house.work / "data" / "arm.csv",
         (HOUSE / "config" / "examples" / "bending_arm.csv").read_text().splitlines(),
     )
-    file.write_text("\n".join(lines[:1201]) + "\n")
+    file.write_text("\n".join(lines[:501]) + "\n")
     entry: dict[str, Any] = {"title": "Arm", "format": "table_file", "file": "data/arm.csv", "position_unit": "mm"}
     entry |= {"commands": "p[0-9]_bar", "positions": ".*_[xyz]", "split": {"method": "random"}}
     small = tmp_path / "small.yaml"
@@ -105,7 +105,7 @@ def test_five_nights_in_a_row(tmp_path: Path, mirror: Path) -> None:
     code, verdict = campaign(house, small)
     assert (code, verdict["jobs_run"]) == (0, 0), verdict
 
-    file.write_text("\n".join(lines[:1601]) + "\n")
+    file.write_text("\n".join(lines) + "\n")
     code, verdict = campaign(house, small)
     assert code in (0, 4), verdict
     assert "arm has other rows" in " ".join(verdict["changes"])

@@ -1,5 +1,6 @@
 # One run at a time in a folder, see src/softkin/cli/one_run.py; what a killed run has left is cleared before anything is
 # looked at, and results that are not as they were written are made anew. No rule of its own.
+import gc
 import json
 import shlex
 import sys
@@ -23,14 +24,18 @@ def take_folder():
         raise WorkflowError(str(error)) from None
 
 
-def count_jobs():
+def start_of_jobs():
     """Write how many jobs this run does."""
+    gc.enable()
     names = [job.rule.name for job in workflow.dag.needrun_jobs() if not job.is_norun]
     counted = {"run": len(names), "all": sum(not j.is_norun for j in workflow.dag.jobs)}
     JOBS.parent.mkdir(parents=True, exist_ok=True)
     JOBS.write_text(json.dumps(counted), encoding="utf-8")
 
 
+# What Snakemake builds before its first job is no garbage: looking for some takes a tenth of a large dry run.
+if workflow.is_main_process:
+    gc.disable()
 if workflow.is_main_process and not only_looks(sys.argv):
     RUN = OneRun.of(Path.cwd())
     take_folder()

@@ -15,11 +15,13 @@ import pandas as pd
 from softkin.campaigns.changes import Changes, changes_between
 from softkin.campaigns.comparison import WORSE, Comparison, Tolerances, compare
 from softkin.campaigns.verdict import FAILED, FIRST, UNCHANGED, Verdict, judge
+from softkin.cli.store_address import store_address
 from softkin.cli.workflow_process import Ended
 from softkin.core.files import read_json, sha256_of
 from softkin.core.samples import VALIDATION
 from softkin.reporting.page.provenance import commit, versions
 from softkin.tracking import nights
+from softkin.tracking.store import client_of
 
 #: Digits of hashes in sentences.
 SHORT = 12
@@ -73,7 +75,7 @@ class Results:
 def judge_results(results: Results, *, refit: bool) -> Verdict:
     """Compare with the last campaign, log this one, and move champions; return the verdict."""
     summary = results.summary()
-    client = nights.open_store(read_json(results.folder / "mlflow_store.json")["tracking_uri"])
+    client = client_of(store_address(results.folder.parent))
     before, rows = nights.last_night(client, summary), pd.read_parquet(results.rows)
     moved: dict[nights.Candidate, str] = {}
     if before is None:
@@ -102,7 +104,7 @@ def log_failure(results: Results, reasons: Sequence[str]) -> Verdict:
     store = results.folder / "mlflow_store.json"
     known = (results.folder / "tables" / "summary.json").exists()
     if store.exists():
-        client = nights.open_store(read_json(store)["tracking_uri"])
+        client = client_of(store_address(results.folder.parent))
         summary = results.summary() if known else None
         page = verdict.as_markdown()
         nights.log_night(client, nights.NightRecord(verdict.as_dict(), page, summary, None, {}, results.started))

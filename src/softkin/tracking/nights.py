@@ -21,7 +21,7 @@ from softkin.core.files import read_json
 from softkin.tracking.promotion import CANDIDATE, CHAMPION, aliases_of, promote
 from softkin.tracking.records import find
 from softkin.tracking.saved_view import CAMPAIGNS_TAG, campaigns_view
-from softkin.tracking.store import NOTE, client_of, experiment_of
+from softkin.tracking.store import NOTE, experiment_of
 
 logger = logging.getLogger("softkin")
 
@@ -172,11 +172,6 @@ def nights(client: MlflowClient) -> list[LoggedRun]:
     """All campaigns, the last first."""
     runs = find(client, experiment_of(client, EXPERIMENT), kind=KIND)
     return sorted(runs, key=lambda run: run.info.start_time, reverse=True)
-
-
-def open_store(tracking_uri: str) -> MlflowClient:
-    """A client of the store at this address."""
-    return client_of(tracking_uri)
 
 
 def _tags(record: NightRecord) -> dict[str, str]:

@@ -26,6 +26,8 @@ logger = logging.getLogger("softkin")
 
 KEY, CONTENT = "softkin.key", "softkin.content"
 CURRENT, SUPERSEDES, SUPERSEDED_BY = "current", "supersedes", "superseded_by"
+#: When a run was superseded, in milliseconds since the epoch.
+SUPERSEDED_AT = "superseded_at"
 #: The value of `superseded_by` where the configuration has no such run any more.
 NOTHING = "nothing"
 YES, NO = "true", "false"
@@ -183,4 +185,5 @@ def _create(client: MlflowClient, experiment: str, record: Record) -> str:
 
 def _supersede(client: MlflowClient, runs: Sequence[Run], by: str) -> None:
     for run in runs:
-        set_tags(client, run.info.run_id, {SUPERSEDED_BY: by, CURRENT: NO})
+        at = str(int(time.time() * 1000))
+        set_tags(client, run.info.run_id, {SUPERSEDED_BY: by, SUPERSEDED_AT: at, CURRENT: NO})

@@ -14,8 +14,9 @@ from softkin.cli.judging import Results, judge_results, log_failure
 from softkin.cli.workflow_process import Ended
 from softkin.core.files import write_json
 from softkin.tracking import create_store
-from softkin.tracking.nights import nights, open_store
+from softkin.tracking.nights import nights
 from softkin.tracking.promotion import CHAMPION, aliases_of, nominate
+from softkin.tracking.store import client_of
 
 NAME = "softkin-arm"
 #: Nights, one after the other; seconds since the epoch.
@@ -31,11 +32,12 @@ def store(tmp_path_factory: pytest.TempPathFactory) -> str:
 
 @pytest.fixture
 def folder(tmp_path: Path, store: str) -> Path:
-    (tmp_path / "tables" / "figures").mkdir(parents=True)
-    write_json(tmp_path / "mlflow_store.json", {"tracking_uri": store})
+    results = tmp_path / "results"
+    (results / "tables" / "figures").mkdir(parents=True)
+    write_json(results / "mlflow_store.json", {"tracking_uri": store})
     for name in ("report.html", "tables/headline.txt", "tables/point_metrics.csv", "tables/figures/published.png"):
-        (tmp_path / name).write_text("made")
-    return tmp_path
+        (results / name).write_text("made")
+    return results
 
 
 def results(folder: Path, campaign: str, *, factor: float = 1.0, jobs: int = 3, **more: Any) -> Results:
@@ -68,7 +70,7 @@ def results(folder: Path, campaign: str, *, factor: float = 1.0, jobs: int = 3, 
 
 def test_three_nights_and_a_gate(folder: Path, store: str) -> None:
     """The first, one that is worse, and one that is as bad: the champion of the first night stays."""
-    client: Any = open_store(store)
+    client: Any = client_of(store)
     client.create_registered_model(NAME)
 
     def night(factor: float) -> str:
@@ -87,7 +89,7 @@ def test_three_nights_and_a_gate(folder: Path, store: str) -> None:
 
 
 def test_a_person_may_keep_the_gate(folder: Path, store: str) -> None:
-    client: Any = open_store(store)
+    client: Any = client_of(store)
     judge_results(results(folder, "manual", promote="manual"), refit=False)
     verdict = judge_results(results(folder, "manual", factor=0.5, promote="manual"), refit=False)
     assert verdict.outcome == "better"
@@ -98,7 +100,7 @@ def test_a_person_may_keep_the_gate(folder: Path, store: str) -> None:
 def test_an_unchanged_night_is_linked_and_not_copied(folder: Path, store: str) -> None:
     judge_results(results(folder, "unchanged"), refit=False)
     assert judge_results(results(folder, "unchanged", jobs=0), refit=False).outcome == "unchanged"
-    client: Any = open_store(store)
+    client: Any = client_of(store)
     other, first = [run for run in nights(client) if run.data.tags["campaign"] == "unchanged"][:2]
     first, other = sorted((first, other), key=lambda run: "same_results_as" in run.data.tags)
     assert other.data.tags["same_results_as"] == first.info.run_id
@@ -120,7 +122,7 @@ def test_a_failure_is_logged_with_its_reason(folder: Path, store: str) -> None:
     made = results(folder, "failing")
     verdict = log_failure(made, ["prepare/arm: column u1 is missing"])
     assert verdict.exit_code == 1
-    client: Any = open_store(store)
+    client: Any = client_of(store)
     (run,) = [run for run in nights(client) if run.data.tags["campaign"] == "failing"]
     assert run.info.status == "FAILED"
     assert "column u1 is missing" in run.data.tags["mlflow.note.content"]

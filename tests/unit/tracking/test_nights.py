@@ -18,9 +18,9 @@ from softkin.tracking.nights import (
     log_night,
     move_champions,
     nights,
-    open_store,
 )
 from softkin.tracking.promotion import REASON, aliases_of, nominate
+from softkin.tracking.store import client_of
 
 NAME = "softkin-finger"
 ROWS = pd.DataFrame({"dataset": ["finger"], "error_mm": [1.5]})
@@ -35,7 +35,7 @@ def summary(configuration: str = "a", name: str = "nightly") -> dict[str, Any]:
 
 @pytest.fixture
 def client(campaign: Campaign) -> Any:
-    return open_store(campaign.tracking_uri)
+    return client_of(campaign.tracking_uri)
 
 
 def logged(client: Any, folder: Path, outcome: str = "same", started: float = 1.0, **keys: Any) -> str:

@@ -1,0 +1,36 @@
+"""Links into MLflow's UI that open runs, each with its saved view."""
+
+from __future__ import annotations
+
+from softkin.tracking import champion, nights, saved_view
+from softkin.tracking.store import client_of
+
+#: The experiments across datasets, in the order of the links: name -> (title, key of the saved view).
+ACROSS = {
+    nights.EXPERIMENT: ("campaigns", saved_view.CAMPAIGNS_KEY),
+    champion.EXPERIMENT: ("calibrated models", saved_view.CHAMPIONS_KEY),
+}
+
+
+def links(tracking_uri: str) -> dict[str, str]:
+    """Title -> path and fragment of a link, from the server's address on.
+
+    `workflowType` makes the UI open runs; without it a page for language models comes first.
+
+    Parameters:
+        tracking_uri: where the store is.
+
+    Raises:
+        StoreError: the store is gone.
+    """
+    experiments = {one.name: one.experiment_id for one in client_of(tracking_uri).search_experiments()}
+    found = {}
+    for name, (title, key) in ACROSS.items():
+        if name in experiments:
+            found[title] = _link(experiments.pop(name), key)
+    experiments.pop("Default", None)
+    return found | {name: _link(number, saved_view.KEY) for name, number in sorted(experiments.items())}
+
+
+def _link(experiment: str, view: str) -> str:
+    return f"/#/experiments/{experiment}/runs?workflowType=machine_learning&viewStateShareKey={view}"
