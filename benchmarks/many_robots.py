@@ -28,12 +28,12 @@ COLUMNS = {"commands": "p[0-9]_bar", "positions": "(middle|tip)_[xyz]"}
 
 
 def write_configuration(folder: Path, n_datasets: int, *, published: bool) -> Path:
-    """A configuration of `n_datasets` entries that differ in their name alone; its path."""
+    """A configuration of `n_datasets` entries that differ in their name and title alone; its path."""
     entry: dict[str, Any] = {"title": "Bending arm", "format": "table_file", "file": str(EXAMPLE), **COLUMNS}
     entry |= {"position_unit": "mm", "split": {"method": "random"}}
     if published:
         entry = yaml.safe_load((HOUSE / "config" / "datasets.yaml").read_text())["sources"]["finger"]
-    sources = {f"robot_{place}": entry for place in range(n_datasets)}
+    sources = {f"robot_{place}": entry | {"title": f"{entry['title']} {place}"} for place in range(n_datasets)}
     configuration = folder / "many.yaml"
     configuration.write_text(yaml.safe_dump({"datasets": list(sources), "sources": sources}))
     return configuration

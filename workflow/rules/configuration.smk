@@ -1,4 +1,5 @@
 # The configuration, checked; where data come from, and where the store is.
+import gc
 import os
 import sys
 
@@ -20,6 +21,10 @@ from softkin.uncertainty.regions import REGION_METHODS
 # A job has one core. OpenMP and BLAS would take all of them, and two such jobs side by side wait for each other most of
 # the time.
 os.environ.update(OMP_NUM_THREADS="1")
+
+# What Snakemake builds before its first job is no garbage, and looking for some takes a tenth of a large dry run.
+if workflow.is_main_process:
+    gc.disable()
 
 # A job on another node starts Snakemake again. What the main process has checked and looked for, it takes as it is told:
 # its node may reach neither the internet nor the mirror. The names of the datasets that stand-ins replace are in here.
