@@ -18,9 +18,9 @@ PAGE = HOUSE / "docs" / "bad_inputs.md"
 PREFACE = """\
 # Bad inputs and what softkin answers
 
-Made by `make bad-inputs-page` from `tests/contract/bad_inputs`; a test checks that it is up to date. {count} inputs, each
-with one message that says where, what and how to fix it; none is accepted, and none gives a traceback. What concerns
-the configuration is refused before any job starts, what concerns a file of data by the first job that reads it.
+Made by `make bad-inputs-page` from `tests/contract/bad_inputs`; a test checks that it is up to date. {count} inputs,
+each with one message that says where, what and how to fix it; none is accepted, and none gives a traceback. What
+concerns the configuration is refused before any job starts, what concerns a file by the first job that reads it.
 """
 
 

@@ -69,7 +69,19 @@ def of_shifted_subsets() -> Robot:
     return robot
 
 
-FAULTS = (with_copies, of_few_commands, that_hardly_moves, with_failed_poses, of_shifted_subsets)
+def of_few_calibration_rows() -> Robot:
+    robot = clean()
+    return robot | {VALIDATION: Samples(robot[VALIDATION].commands[:5], robot[VALIDATION].positions[:5])}
+
+
+FAULTS = (
+    with_copies,
+    of_few_commands,
+    of_few_calibration_rows,
+    that_hardly_moves,
+    with_failed_poses,
+    of_shifted_subsets,
+)
 
 
 @cache

@@ -21,6 +21,10 @@ TRAIN, VALIDATION, TEST, EXTRAPOLATION = SUBSETS = ("train", "validation", "test
 
 #: A coordinate whose range on `train` is at most this (mm) is constant: it says nothing about a model.
 CONSTANT_RANGE_MM = 1e-6
+#: Fewest rows of each subset that the whole workflow can do something with. `validation` is split into this many folds
+#: where interval methods are compared; on fewer rows of `train` no model can be tuned on folds and shells.
+MIN_CALIBRATION_ROWS = 5
+MIN_ROWS = {TRAIN: 20, VALIDATION: MIN_CALIBRATION_ROWS, TEST: 2, EXTRAPOLATION: 2}
 #: Arithmetic on larger numbers overflows.
 MAX_MAGNITUDE = 1e100
 

@@ -17,6 +17,7 @@ from softkin.core.samples import CONSTANT_RANGE_MM, TRAIN, Samples, coordinate_c
 from softkin.data.readers import READERS
 from softkin.data.recordings import description as recording_description
 from softkin.data.recordings import with_order_table
+from softkin.data.split import check_sizes
 from softkin.data.table import content_hash, schema, to_table, write_table
 
 logger = logging.getLogger("softkin")
@@ -70,6 +71,10 @@ def prepare(
     if clean is not None:
         samples, removed = clean(samples)
         logger.info("cleaned train: %s", ", ".join(f"{count} {what}" for what, count in removed.items()))
+    try:
+        check_sizes({subset: len(rows) for subset, rows in samples.items()})
+    except DataError as error:
+        raise error.within(f"dataset '{dataset}', file {source['file']}") from error
     _check_movement(samples[TRAIN], f"dataset '{dataset}', file {source['file']}, `train`")
     _warn_of_implausible_range(samples[TRAIN], source, f"dataset '{dataset}', file {source['file']}")
     frame = to_table(samples)

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from softkin.core.errors import DataError
 from softkin.core.recording import Recording
-from softkin.core.samples import EXTRAPOLATION, SUBSETS, TEST, TRAIN, VALIDATION, Array
+from softkin.core.samples import EXTRAPOLATION, MIN_ROWS, SUBSETS, TEST, TRAIN, VALIDATION, Array
 from softkin.data.split_in_time import IN_TIME, split_in_time
 
 Codes = NDArray[np.int64]
@@ -74,6 +74,24 @@ def standardised_norms(commands: Array) -> Array:
     varies = (np.ptp(scaled, axis=0) > 0) & (spread > 0)
     standardised = (scaled[:, varies] - scaled[:, varies].mean(axis=0)) / spread[varies]
     return np.asarray(np.sqrt(np.einsum("ij,ij->i", standardised, standardised)))
+
+
+def check_sizes(sizes: Mapping[str, int]) -> None:
+    """Check the number of rows of each subset.
+
+    Raises:
+        DataError: so few that the workflow could not go to its end; names each such subset.
+    """
+    few = [
+        f"{subset} gets {sizes[subset]} of at least {least}"
+        for subset, least in MIN_ROWS.items()
+        if sizes[subset] < least
+    ]
+    if few:
+        raise DataError(
+            f"{sum(sizes.values())} rows are too few: {', '.join(few)}",
+            fix="record more, best some hundred or more",
+        )
 
 
 def wanted_shares(options: Mapping[str, Any]) -> dict[str, float]:

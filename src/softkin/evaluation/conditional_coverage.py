@@ -72,7 +72,7 @@ def _groups(
     markers = np.flatnonzero(moving) // 3
     for marker in np.unique(markers):
         yield {"by": "marker", "group": f"m{marker + 1}", **_share(is_covered[:, markers == marker])}
-    centre = np.where(np.isfinite(bounds).all(axis=-1), bounds.mean(axis=-1), 0.0)
+    centre = np.where(np.isfinite(bounds).all(axis=-1, keepdims=True), bounds, 0.0).mean(axis=-1)
     variables = {
         "command_norm": np.linalg.norm(test.commands, axis=1),
         "predicted_position": np.linalg.norm(centre - train.positions[:, moving].mean(axis=0), axis=1),

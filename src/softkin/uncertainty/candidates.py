@@ -1,4 +1,4 @@
-"""Whether a configuration leaves an interval method that can be chosen for every dataset, before anything runs."""
+"""Whether a configuration leaves an interval method that can be chosen for every dataset, known before it runs."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ from softkin.core.errors import ConfigError
 from softkin.core.files import replacing
 from softkin.core.metrics.interval import winkler_scores
 from softkin.core.runs import Run, nearest_level
-from softkin.core.samples import informative_coordinates
+from softkin.core.samples import MIN_CALIBRATION_ROWS, Array, informative_coordinates
 from softkin.models.spec import PAPERS_RUN
 from softkin.uncertainty.calibration_data import PointCalibration, QuantileCalibration, ShellCalibration
 from softkin.uncertainty.intervals.spec import AUTO, MARGINAL, IntervalMethod
@@ -24,7 +24,7 @@ from softkin.uncertainty.stored_outputs import StoredOutputs
 
 logger = logging.getLogger("softkin")
 
-N_FOLDS = 5
+N_FOLDS = MIN_CALIBRATION_ROWS
 
 #: Calibration data whose calibration rows can be split again.
 Resplittable = PointCalibration | QuantileCalibration
@@ -56,7 +56,8 @@ def choose(
 
     Candidates are the in-domain methods with a marginal guarantee around one of `runs`, and those calibrated on
     quantiles. Each is calibrated on four folds of `validation` and scored on the held-out one, five times: the mean
-    Winkler score over moving coordinates. Ties go to the method that comes first.
+    Winkler score over moving coordinates. Ties go to the method that comes first; where the calibration set is so small
+    that all are infinite, the lowest configured level decides.
 
     The best is `chosen`. `deployed` is the best around a point model, which the calibrated model holds. `outside` names
     the method of its intervals in extrapolation: `auto` if the regime is `auto` and the run has shells, else the same.
@@ -80,7 +81,7 @@ def choose(
             where="interval_methods",
             fix="add scp_mapie to interval_methods",
         )
-    frame = frame.sort_values("cv_winkler_mm", kind="stable", ignore_index=True)
+    frame = frame.sort_values(["cv_winkler_mm", "tie"], kind="stable", ignore_index=True).drop(columns="tie")
     frame["chosen"] = frame.index == 0
     around_model = frame["interval_method"].map(lambda name: methods[name].calibrated_on.is_around_a_model)
     frame["deployed"] = around_model & ~around_model.shift(fill_value=False).cummax()
@@ -91,6 +92,9 @@ def choose(
     with replacing(choice) as temporary:
         frame.to_csv(temporary, index=False)
     best = frame.iloc[0]
+    if np.isinf(best["cv_winkler_mm"]):
+        level, lowest = (f"{100 * at:g} %" for at in (best["confidence_level"], outputs.levels[0]))
+        logger.warning("validation has too few rows for intervals at %s: methods are compared at %s", level, lowest)
     if regime == AUTO and not by_shells.any():
         logger.warning("intervals in extrapolation are as in-domain: no method `%s`, or no shells", AUTO)
     logger.info("chosen: %s around %s %s", methods[best["interval_method"]].title, best["model"], best["preset"])
@@ -109,16 +113,20 @@ def _scored_candidates(
         for run, data in outputs.of(method.calibrated_on):
             if method.calibrated_on.is_around_a_model and run not in runs:
                 continue
-            scores = []
+            scores: dict[float, list[Array]] = {level: [], outputs.levels[0]: []}
             for part, held_out in resplits(data, seed):
-                bounds = method.intervals(part, outputs.levels)[outputs.levels.index(level)]
-                scores.append(winkler_scores(data.truth[held_out], bounds, level)[:, moving].mean(axis=1))
+                bounds = method.intervals(part, outputs.levels)
+                for at, of_level in scores.items():
+                    winkler = winkler_scores(data.truth[held_out], bounds[outputs.levels.index(at)], at)
+                    of_level.append(winkler[:, moving].mean(axis=1))
+            means = {at: float(np.concatenate(of_level).mean()) for at, of_level in scores.items()}
             yield {
                 "model": run.model,
                 "preset": run.preset,
                 "interval_method": name,
                 "confidence_level": level,
-                "cv_winkler_mm": float(np.concatenate(scores).mean()),
+                "cv_winkler_mm": means[level],
+                "tie": means[outputs.levels[0]] if np.isinf(means[level]) else 0.0,
             }
 
 

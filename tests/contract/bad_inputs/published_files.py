@@ -76,6 +76,11 @@ CASES = [
     BadInput("another number of commands", changed(lambda _: None, n_commands=3), ("expected 3 values",)),
     BadInput("another number of markers", changed(lambda _: None, n_markers=2), ("expected 2 values",)),
     BadInput("other rows than registered", changed(lambda _: None, rows={"test": 7}), ("120 rows", "registers 7")),
+    BadInput(
+        "four rows of validation",
+        changed(lambda c: [rows.__delitem__(slice(4, None)) for rows in c["val"].values()]),
+        ("validation gets 4 of at least 5",),
+    ),
     BadInput("positions that never move", changed(never_moves), ("never move",)),
     BadInput("one command alone", changed(one_command), ("distinct command",)),
 ]

@@ -105,7 +105,7 @@ CASES = [
     BadInput("a pattern that matches nothing", text(GOOD, commands="v.*"), ("'v.*' matches no whole name",)),
     BadInput("a column that stands twice", text(GOOD.replace("u2", "u1", 1)), ("2 columns are named 'u1'",)),
     BadInput("axes that change places", of(UNCHANGED, dimensions=2), ("`positions`", "3 columns")),
-    BadInput("20 rows", of(UNCHANGED, 20), ("20 rows are too few", "train gets")),
+    BadInput("60 rows", of(UNCHANGED, 60), ("60 rows are too few", "validation gets 4 of at least 5")),
     BadInput("one row", of(UNCHANGED, 1), ("four subsets need at least four",)),
     BadInput("one command alone", of(lambda t: t.update({"u1": [1.0] * ROWS, "u2": [1.0] * ROWS})), ("distinct",)),
     BadInput(

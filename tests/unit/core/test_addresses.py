@@ -46,7 +46,7 @@ def test_a_mirror_that_may_be_there_has_no_problem(mirror: str) -> None:
 def test_urls_are_told_from_what_is_none() -> None:
     assert list(problems_of_url("https://host/a%20b.json", "urls.0")) == []
     for url in ("host/a.json", "ftp://host/a", "https:///a", "https://host/a b", "https://[host/a", ""):
-        assert next(problems_of_url(url, "urls.0")).startswith("urls.0: ")
+        assert next(iter(problems_of_url(url, "urls.0"))).startswith("urls.0: ")
 
 
 def test_a_password_is_not_shown() -> None:

@@ -59,8 +59,8 @@ def test_another_number_of_rows_than_registered_is_an_error(tmp_path: Path) -> N
 
 
 def test_max_rows_keeps_the_first_rows_and_says_so(tmp_path: Path) -> None:
-    _, written_description = run(tmp_path, entry(), max_rows=6)
-    assert written_description["rows"] == {"train": 6, "validation": 5, "test": 6, "extrapolation": 6}
+    _, written_description = run(tmp_path, entry(), max_rows=25)
+    assert written_description["rows"] == SIZES | {"train": 25}
     assert written_description["is_cut"]
     assert not run(tmp_path, entry())[1]["is_cut"]
 

@@ -150,3 +150,30 @@ def test_without_a_calibrated_method_there_is_nothing_to_choose(heteroscedastic:
         choose(outputs, methods=only, runs=[GP], seed=0, regime="in_domain", choice=never)
     assert caught.value.where == "interval_methods"
     assert not never.exists()
+
+
+def test_where_all_scores_are_infinite_the_lowest_level_decides(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    """Of five rows of `validation` four calibrate: enough for 80 %, too few for 90 %."""
+    rng = np.random.default_rng(0)
+    subsets = {subset: bending_arm(5 if subset == "validation" else 40, seed=p) for p, subset in enumerate(SUBSETS)}
+    write_table(to_table(subsets), tmp_path / "t.parquet")
+    for name, noise in (("bad", 5.0), ("good", 0.1)):
+        predictions = to_table(subsets).drop(columns=["u1", "u2"])
+        predictions.iloc[:, 1:] += noise * rng.standard_normal((len(predictions), 3))
+        predictions.to_parquet(tmp_path / f"{name}.parquet")
+    outputs = StoredOutputs(
+        tmp_path / "t.parquet",
+        predictions={GP: tmp_path / "bad.parquet", LR: tmp_path / "good.parquet"},
+        quantiles={},
+        refits=None,
+        confidence_levels=[0.8, 0.9],
+    )
+    methods = {"scp_mapie": INTERVAL_METHODS["scp_mapie"]}
+    choose(outputs, methods=methods, runs=[GP, LR], seed=0, regime="in_domain", choice=tmp_path / "choice.csv")
+    choice = pd.read_csv(tmp_path / "choice.csv")
+    assert np.isinf(choice["cv_winkler_mm"]).all()
+    assert list(choice["model"]) == ["lr", "gp"]
+    assert "tie" not in choice
+    assert "too few rows for intervals at 90 %: methods are compared at 80 %" in caplog.text

@@ -14,7 +14,7 @@ import numpy as np
 
 from softkin.core.errors import DataError
 from softkin.core.recording import Recording
-from softkin.core.samples import EXTRAPOLATION, MAX_MAGNITUDE, SUBSETS, TRAIN, VALIDATION, Array, Samples
+from softkin.core.samples import EXTRAPOLATION, MAX_MAGNITUDE, SUBSETS, VALIDATION, Array, Samples
 from softkin.data import split
 from softkin.data.readers import columns, delimited_text, parquet_columns
 from softkin.data.readers.delimited_text import DelimitedText
@@ -27,8 +27,6 @@ Table = DelimitedText | ParquetColumns
 
 #: Keys of the entry whose columns say when rows were recorded.
 WHEN = ("order", "session")
-#: Fewest rows that models can be fitted to (`train`) or scores computed from.
-MIN_ROWS = dict.fromkeys(SUBSETS, 2) | {TRAIN: 20}
 #: Split conformal prediction at 95 % needs 19 calibration rows.
 FEW_CALIBRATION_ROWS = 19
 #: A marker's range this many times that of the next narrower suggests that they are in different units: along an arm
@@ -76,7 +74,7 @@ def read(path: str | Path, *, dataset: str, source: Mapping[str, Any]) -> dict[s
         samples = Samples(values[:, :n_commands], _spatial(values[:, n_commands:], dimensions), recording)
         subset_of = split.split(source["split"], samples.commands, by.get("split"), table.place, recording)
         sizes = dict(zip(SUBSETS, np.bincount(subset_of, minlength=len(SUBSETS)).tolist(), strict=True))
-        _check_sizes(sizes)
+        split.check_sizes(sizes)
     except DataError as error:
         raise error.within(where) from error
     for what, fix in (
@@ -132,18 +130,6 @@ def _check_magnitudes(names: Sequence[str], values: Array, place: Callable[[int]
                 where=f"{place(row)}, column '{name}'",
                 fix="correct the value or delete the row",
             )
-
-
-def _check_sizes(sizes: Mapping[str, int]) -> None:
-    few = [
-        f"{subset} gets {size} of at least {MIN_ROWS[subset]}"
-        for subset, size in sizes.items()
-        if size < MIN_ROWS[subset]
-    ]
-    if few:
-        raise DataError(
-            f"{sum(sizes.values())} rows are too few: {', '.join(few)}", fix="record more, best some hundred or more"
-        )
 
 
 def _remarks_on_sizes(sizes: Mapping[str, int], wanted: Mapping[str, float]) -> Iterator[tuple[str, str]]:

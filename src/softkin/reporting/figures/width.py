@@ -51,9 +51,10 @@ def frame(results: DatasetResults) -> pd.DataFrame:
         intervals = bounds(results, row.interval_method, Run(row.model, row.preset), row.confidence_level, [name])
         assert intervals is not None  # a candidate has intervals
         lower, upper = intervals[rows, 0].T
-        part = pd.DataFrame({"half_width_mm": (upper - lower) / 2, "error_mm": np.abs(true - (lower + upper) / 2)})
-        part["covered"] = (lower <= true) & (true <= upper)
-        part = part[np.isfinite(part["half_width_mm"])]
+        finite = np.isfinite(upper - lower)
+        lower, upper, inner = lower[finite], upper[finite], true[finite]
+        part = pd.DataFrame({"half_width_mm": (upper - lower) / 2, "error_mm": np.abs(inner - (lower + upper) / 2)})
+        part["covered"] = (lower <= inner) & (inner <= upper)
         if part.empty or (parts and _is_constant(part)):
             continue
         key = {"model": row.model, "preset": row.preset, "interval_method": row.interval_method}

@@ -59,7 +59,7 @@ def test_an_audit_says_the_same_twice(robot: dict[str, Samples], tmp_path: Path)
 @pytest.mark.parametrize("n_rows", [12, 60])
 def test_small_and_wide_data_get_a_card_too(n_rows: int, tmp_path: Path) -> None:
     card, readable = audited(clean_robot(n_rows, n_commands=40, n_markers=3, seed=0), tmp_path)
-    assert card["findings"] == []
+    assert {finding["code"] for finding in card["findings"]} <= {"few_calibration_rows"}
     assert "Not measured: too few distinct rows" in readable
     assert "too few rows" in readable
     assert "37 more columns" in readable
@@ -69,7 +69,7 @@ def test_a_single_row_each_gets_a_card_too(tmp_path: Path) -> None:
     one = {subset: Samples(np.full((1, 1), float(place)), np.zeros((1, 3))) for place, subset in enumerate(SUBSETS)}
     card, readable = audited(one, tmp_path)
     codes = {finding["code"] for finding in card["findings"]}
-    assert codes == {"constant_coordinates", "constant_commands"}
+    assert codes == {"constant_coordinates", "constant_commands", "few_calibration_rows"}
     assert "Not measured: no coordinate moves" in readable
     assert card["base"] == {"not_measured": "no marker moves"}
     assert "Not measured: no marker moves." in readable
