@@ -13,7 +13,8 @@ export MLFLOW_DISABLE_TELEMETRY := true
 # Things run side by side, one core each: with more threads than that they wait for each other most of the time.
 export OMP_NUM_THREADS := 1
 
-.PHONY: help run demo campaign refit prune unlock new-robot test test-workflow test-others test-run lint ui store report gallery numbers results-page
+.PHONY: help run demo campaign refit prune unlock new-robot test test-workflow test-others test-run lint ui store report verify
+.PHONY: gallery numbers results-page
 .PHONY: snakemake-report campaigns campaign-slurm coverage standins timings benchmark benchmark-large benchmark-pruning benchmark-shells
 .PHONY: benchmark-figures benchmark-commands benchmark-many-robots
 .PHONY: environment clean ui-screenshot bad-inputs-page
@@ -79,6 +80,10 @@ store: .venv/installed
 # The page of the run, results/report.html, and nothing that it does not need.
 report: .venv/installed
 	$(BIN)/snakemake --cores "$$CORES" results/report.html
+
+# Whether the results are what softkin wrote, and the tables what the stored predictions give. IN: the folder of the run.
+verify: .venv/installed
+	@$(BIN)/python -m softkin.cli.verify --in="$$IN"
 
 # The pictures and the table of the README, from a finished run of the default configuration.
 gallery: .venv/installed

@@ -1,0 +1,57 @@
+"""Say whether results are what softkin wrote, and whether the tables are what the stored predictions give.
+
+python -m softkin.cli.verify --in results/demo
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from softkin.cli.recompute import recomputed
+from softkin.cli.redo import sentences
+from softkin.core.files import read_json
+from softkin.core.job_records import FOLDER, damages, read_record
+
+
+def verify(results: Path) -> list[str]:
+    """What is wrong with a folder of `results`, a sentence each; nothing where all is as it should be."""
+    if not (results / FOLDER).is_dir():
+        return [f"{results / FOLDER} is not there: no job has recorded what it wrote"]
+    found = sentences(list(damages(results, thorough=True)))
+    broken = [path for path in sorted((results / FOLDER).rglob("*.json")) if read_record(path) is None]
+    found += [f"{path} is no record of a job" for path in broken]
+    found += [f"{path} was written by no job that is recorded" for path in unrecorded(results)]
+    return found + list(recomputed(results))
+
+
+def unrecorded(results: Path) -> list[Path]:
+    """Models and tables below `results` that no record names."""
+    known = set()
+    for record in (results / FOLDER).rglob("*.json"):
+        known |= {results.parent / name for name in (read_record(record) or {"files": {}})["files"]}
+    files = [path for ending in ("joblib", "parquet", "csv") for path in results.rglob(f"*.{ending}")]
+    own = ("studies", "logs", "benchmarks")
+    return sorted(path for path in files if path not in known and path.relative_to(results).parts[0] not in own)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command; its exit status is 0 where all is as softkin wrote it, 1 where something is not."""
+    parser = argparse.ArgumentParser(prog="verify", description=__doc__.splitlines()[0] if __doc__ else None)
+    parser.add_argument("--in", dest="folder", default=".", help="the folder of the run")
+    results = Path(parser.parse_args(arguments).folder) / "results"
+    found = verify(results)
+    for sentence in found:
+        print(f"verify: {sentence}")
+    if found:
+        print("verify: the next run makes anew what was changed or is gone: make run")
+        return 1
+    n_files = sum(len(read_json(record)["files"]) for record in (results / FOLDER).rglob("*.json"))
+    print(f"verify: {n_files} files are as they were written, and the tables are what the stored predictions give")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
