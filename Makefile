@@ -162,13 +162,13 @@ results-page: .venv/installed
 ui-screenshot: .venv/installed-dev
 	$(BIN)/python -m tools.ui_screenshot
 
-# Pin every dependency anew.
+# Pin every dependency anew, what a run installs by the hashes of its files: pip refuses any other.
 COMPILE := pip-compile --quiet --allow-unsafe --strip-extras --no-header --no-annotate \
   --no-emit-index-url --no-emit-find-links --no-emit-trusted-host --extra install
 
 environment: .venv/installed-dev
 	$(BIN)/$(COMPILE) --extra dev --output-file environment-dev.txt pyproject.toml
-	$(BIN)/$(COMPILE) --constraint environment-dev.txt --output-file environment.txt pyproject.toml
+	$(BIN)/$(COMPILE) --generate-hashes --constraint environment-dev.txt --output-file environment.txt pyproject.toml
 
 clean:
 	rm -rf results .snakemake
