@@ -23,6 +23,7 @@ from tests.conftest import HOUSE
 
 README = HOUSE / "README.md"
 DOCUMENTS = [README, HOUSE / "CONTRIBUTING.md", HOUSE / "CHANGELOG.md", HOUSE / "config" / "README.md"]
+DOCUMENTS += [HOUSE / "SECURITY.md"]
 DOCUMENTS += sorted((HOUSE / "docs").rglob("*.md"))
 DECISIONS = sorted((HOUSE / "docs" / "decisions").glob("[0-9]*.md"))
 
