@@ -5,8 +5,8 @@ from softkin.core.manifest import files_of_runs, write_manifest
 from softkin.core.runs import Run
 from softkin.models import MODELS
 from softkin.training.selection import deployable_runs
+from softkin.uncertainty.build_calibrated_model import build_calibrated_model
 from softkin.uncertainty.calibrate import calibrate
-from softkin.uncertainty.calibrated_model import build_calibrated_model
 from softkin.uncertainty.choose import choose, deployed_choice
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from softkin.uncertainty.stored_outputs import stored_outputs

@@ -23,21 +23,6 @@ WIDTHS = (0.0125, 0.025, 0.05, 0.1, 0.2)
 
 
 @dataclass(frozen=True, slots=True)
-class Recording:
-    """When rows were measured: `order` (n_rows,), unique; `session` (n_rows,), numbered from 1 in the order of time;
-    `memory` (n_rows, n_memory), what the robot may remember at each, in the columns of `memory_columns`.
-    """
-
-    order: Whole
-    session: Whole
-    memory: Array
-
-    def take(self, rows: NDArray[Any] | slice) -> Self:
-        """The recording of some rows."""
-        return type(self)(self.order[rows], self.session[rows], self.memory[rows])
-
-
-@dataclass(frozen=True, slots=True)
 class CommandMemory:
     """What a robot of these commands may remember: `rest` (n_commands,) is the command at which a session begins,
     `ranges` (n_commands,) is the width of each command's range.
@@ -78,6 +63,12 @@ class CommandMemory:
             result[row] = plays
         return np.hstack([previous, result.reshape(len(commands), -1)])
 
+    def from_rest(self, commands: Array) -> Array:
+        """Memory (n_rows, n_memory) at each of `commands` (n_rows, n_commands), each the first after rest."""
+        halves = self.half_widths()[None]
+        plays = np.minimum(np.maximum(self.rest, commands[:, None] - halves), commands[:, None] + halves)
+        return np.hstack([np.tile(self.rest, (len(commands), 1)), plays.reshape(len(commands), -1)])
+
     def recorded(self, commands: Array, order: Whole, session: Whole) -> Recording:
         """The recording of all `commands` (n_rows, n_commands) that were sent, in any order of rows."""
         memory = np.empty((len(commands), len(self.start())))
@@ -85,7 +76,24 @@ class CommandMemory:
         for number in np.unique(session):
             rows = in_time[session[in_time] == number]
             memory[rows] = self.along(commands[rows])
-        return Recording(order, session, memory)
+        return Recording(order, session, memory, self)
+
+
+@dataclass(frozen=True, slots=True)
+class Recording:
+    """When rows were measured: `order` (n_rows,), unique; `session` (n_rows,), numbered from 1 in the order of time;
+    `memory` (n_rows, n_memory), what the robot may remember at each, in the columns of `memory_columns`; `robot` says
+    how it is computed.
+    """
+
+    order: Whole
+    session: Whole
+    memory: Array
+    robot: CommandMemory
+
+    def take(self, rows: NDArray[Any] | slice) -> Self:
+        """The recording of some rows."""
+        return type(self)(self.order[rows], self.session[rows], self.memory[rows], self.robot)
 
 
 def play(commands: Array, half_width: float, start: Array) -> Array:

@@ -18,7 +18,7 @@ import pandas as pd
 
 from softkin.core.errors import DataError
 from softkin.core.files import replacing
-from softkin.core.recording import Recording, memory_columns
+from softkin.core.recording import CommandMemory, Recording, memory_columns
 from softkin.core.samples import SUBSETS, Samples, command_columns, coordinate_columns
 
 if TYPE_CHECKING:
@@ -54,7 +54,10 @@ def to_table(samples: Mapping[str, Samples]) -> pd.DataFrame:
         frame = pd.concat(parts, axis=1)
         frame.insert(0, "subset", subset)
         frames.append(frame)
-    return pd.concat(frames, ignore_index=True)
+    table = pd.concat(frames, ignore_index=True)
+    if recording is not None:
+        table.attrs = {"rest": recording.robot.rest.tolist(), "ranges": recording.robot.ranges.tolist()}
+    return table
 
 
 def write_table(table: pd.DataFrame, path: str | Path) -> None:
@@ -80,7 +83,9 @@ def read_subset(path: str | Path, subset: str) -> Samples:
     recording = None
     if "order" in frame:
         memory = np.ascontiguousarray(frame[memory_columns(commands.shape[1])].to_numpy(np.float64))
-        recording = Recording(frame["order"].to_numpy(np.int64), frame["session"].to_numpy(np.int64), memory)
+        robot = CommandMemory(np.array(frame.attrs["rest"]), np.array(frame.attrs["ranges"]))
+        order, session = (frame[name].to_numpy(np.int64) for name in ("order", "session"))
+        recording = Recording(order, session, memory, robot)
     positions = np.ascontiguousarray(frame.loc[:, is_coordinate].to_numpy(np.float64))
     return Samples(commands, positions, recording)
 

@@ -42,7 +42,7 @@ def fit(
             so.
     """
     samples = some_rows(read_subset(table, TRAIN), max_rows, settings.seed)
-    estimator = kinematic_model(spec, settings)
+    estimator = kinematic_model(spec, settings, samples.recording)
     with stopwatch() as watch:
         stopped = fit_quietly(estimator, samples, settings.threads)
     with replacing(files.model) as temporary:
@@ -57,6 +57,7 @@ def fit(
             "skip_constant": settings.skip_constant,
             "target_space": settings.target_space,
             "base": settings.base,
+            "memory": settings.memory,
             "n_train": len(samples),
             "solvers_at_iteration_bound": stopped,
             "fit_seconds": watch.seconds,

@@ -13,10 +13,13 @@ from sklearn.pipeline import make_pipeline
 from sklearn.preprocessing import StandardScaler
 
 from softkin.core.clocks import counted_as_fit
+from softkin.core.recording import Recording
 from softkin.core.rows import sampled_rows
 from softkin.core.samples import Params, Samples
 from softkin.core.threads import limited_threads
+from softkin.models.estimators.in_sessions import InSessions
 from softkin.models.estimators.kinematic_regressor import KinematicRegressor
+from softkin.models.estimators.memory_features import NONE
 from softkin.models.spec import ModelSpec
 from softkin.models.target_spaces import TARGET_SPACES
 
@@ -28,7 +31,8 @@ class FitSettings:
     """How a model is fitted.
 
     `params` are the model's own; `skip_constant` leaves coordinates that never vary out of the fit; `base` is the
-    robot's base as the dataset's entry declares it, for a target space that needs it.
+    robot's base as the dataset's entry declares it, for a target space that needs it. On recorded rows, `memory` says
+    what the model is told of the commands before: `memory`, `widths` and `zeros` of `InSessions`; None: nothing.
     """
 
     params: Params
@@ -37,6 +41,7 @@ class FitSettings:
     threads: int
     target_space: str = "cartesian"
     base: Mapping[str, Any] | None = None
+    memory: Mapping[str, Any] | None = None
 
 
 def recorded_settings(record: Mapping[str, Any], seed: int, threads: int) -> FitSettings:
@@ -48,25 +53,37 @@ def recorded_settings(record: Mapping[str, Any], seed: int, threads: int) -> Fit
         threads=threads,
         target_space=record["target_space"],
         base=record["base"],
+        memory=record["memory"],
     )
 
 
 def searched_settings(best: Mapping[str, Any], base: Mapping[str, Any] | None, seed: int, threads: int) -> FitSettings:
     """The settings of a fit with the `best` parameters of a study (as `tune_table` writes them)."""
-    return FitSettings(best["params"], True, seed, threads, target_space=best["target_space"], base=base)
+    return FitSettings(
+        best["params"], True, seed, threads, target_space=best["target_space"], base=base, memory=best["memory"]
+    )
 
 
-def kinematic_model(spec: ModelSpec, settings: FitSettings) -> Any:
-    """Unfitted regressor commands -> positions in mm, which standardises both by the rows that it is fitted on."""
-    return KinematicRegressor(
+#: The command alone, the same in all sessions: what the paper's models are told.
+STATIC = {"memory": NONE, "zeros": False}
+
+
+def kinematic_model(spec: ModelSpec, settings: FitSettings, recording: Recording | None = None) -> Any:
+    """Unfitted regressor of commands -> positions in mm, which standardises both by the rows that it is fitted on; of
+    the inputs of recorded rows, where there is a `recording`.
+    """
+    regressor = KinematicRegressor(
         make_pipeline(StandardScaler(), spec.build(settings.params, settings.seed, settings.threads)),
         TARGET_SPACES[settings.target_space].transformer(settings.skip_constant, settings.base),
     )
+    if recording is None:
+        return regressor
+    return InSessions(regressor, recording.robot, **(settings.memory or STATIC))
 
 
 def fitted_model(spec: ModelSpec, settings: FitSettings, samples: Samples) -> Any:
     """The model of `settings`, fitted on `samples`."""
-    estimator = kinematic_model(spec, settings)
+    estimator = kinematic_model(spec, settings, samples.recording)
     fit_quietly(estimator, samples, settings.threads)
     return estimator
 
@@ -78,7 +95,7 @@ def fit_quietly(estimator: Any, samples: Samples, threads: int) -> int:
     """
     with warnings.catch_warnings(record=True) as caught, limited_threads(threads), counted_as_fit():
         warnings.simplefilter("always")
-        estimator.fit(samples.commands, samples.positions)
+        estimator.fit(samples.inputs, samples.positions)
     stopped = [w for w in caught if issubclass(w.category, ConvergenceWarning)]
     for message in {str(w.message) for w in caught if w not in stopped}:
         logger.warning("%s", message)
@@ -90,5 +107,4 @@ def some_rows(samples: Samples, max_rows: int | None, seed: int) -> Samples:
     if max_rows is None or len(samples) <= max_rows:
         return samples
     logger.warning("fitted on %d of %d rows: max_fit_rows", max_rows, len(samples))
-    rows = sampled_rows(len(samples), max_rows, seed)
-    return Samples(samples.commands[rows], samples.positions[rows])
+    return samples.take(sampled_rows(len(samples), max_rows, seed))

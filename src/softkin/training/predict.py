@@ -21,13 +21,15 @@ from softkin.models.spec import ModelSpec
 STANDARD_DEVIATION, SPREAD = "std_", "spread_"
 
 
-def spread_of(spec: ModelSpec, estimator: Any, train: Samples, commands: Array) -> Array:
-    """Spread (n_rows, n_coordinates) in mm of a fitted kinematic model at `commands`."""
+def spread_of(spec: ModelSpec, estimator: Any, train: Samples, inputs: Array) -> Array:
+    """Spread (n_rows, n_coordinates) in mm of a fitted kinematic model at `inputs`."""
     assert spec.spread is not None
-    scaler, regressor = estimator.regressor_[0], estimator.regressor_[-1]
-    standardised = Samples(scaler.transform(train.commands), estimator.transformer_.transform(train.positions))
-    spread = spec.spread(regressor, standardised, scaler.transform(commands))
-    return np.asarray(estimator.transformer_.inverse_spread(estimator.targets(commands), spread))
+    model, known, added = estimator.resolved(train.inputs)
+    features = estimator.resolved(inputs)[1]
+    scaler, regressor = model.regressor_[0], model.regressor_[-1]
+    standardised = Samples(scaler.transform(known), model.transformer_.transform(train.positions - added))
+    spread = spec.spread(regressor, standardised, scaler.transform(features))
+    return np.asarray(model.transformer_.inverse_spread(model.targets(features), spread))
 
 
 def predict(
@@ -53,14 +55,14 @@ def predict(
     frames = []
     with limited_threads(threads):
         for subset in SUBSETS:
-            commands = (train if subset == TRAIN else read_subset(table, subset)).commands
-            frames.append(_frame(subset, np.asarray(estimator.predict(commands))))
+            inputs = (train if subset == TRAIN else read_subset(table, subset)).inputs
+            frames.append(_frame(subset, np.asarray(estimator.predict(inputs))))
             if spec.spread is not None:
-                spread = _frame(subset, spread_of(spec, estimator, train, commands))
+                spread = _frame(subset, spread_of(spec, estimator, train, inputs))
                 prefix = STANDARD_DEVIATION if spec.is_predictive else SPREAD
                 frames[-1] = pd.concat([frames[-1], spread.iloc[:, 1:].add_prefix(prefix)], axis=1)
             if subset == TEST:
-                microseconds = _microseconds_per_row(estimator, commands)
+                microseconds = _microseconds_per_row(estimator, inputs)
     with replacing(predictions) as temporary:
         pd.concat(frames, ignore_index=True).to_parquet(temporary, index=False)
     return microseconds
@@ -73,10 +75,10 @@ def _frame(subset: str, positions: Array) -> pd.DataFrame:
     return frame
 
 
-def _microseconds_per_row(estimator: Any, commands: Array, repeats: int = 5) -> float:
+def _microseconds_per_row(estimator: Any, inputs: Array, repeats: int = 5) -> float:
     seconds = []
     for _ in range(repeats):
         start = time.perf_counter()
-        estimator.predict(commands)
+        estimator.predict(inputs)
         seconds.append(time.perf_counter() - start)
-    return 1e6 * statistics.median(seconds) / len(commands)
+    return 1e6 * statistics.median(seconds) / len(inputs)

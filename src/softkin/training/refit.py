@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from softkin.core.errors import ConfigError
 from softkin.core.files import read_json
-from softkin.core.folds import grouped_folds
+from softkin.core.folds import folds_of
 from softkin.core.job import stopwatch
 from softkin.core.run_archive import CPU_SECONDS, RunArchive
 from softkin.core.runs import Run
-from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, Array, Samples
+from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, Array
 from softkin.data.table import read_subset
 from softkin.models.spec import ModelSpec
 from softkin.training.kinematic_model import fitted_model, recorded_settings
@@ -31,7 +31,7 @@ FOLD_OF_ROW, RESAMPLE_ROWS = "fold_of_row", "resample_rows"
 
 @dataclass(frozen=True, slots=True)
 class RefittingSettings:
-    """`n_folds` folds grouped by distinct command, `n_resamples` bootstrap samples; a dataset of more than
+    """`n_folds` folds (see `folds_of`), `n_resamples` bootstrap samples; a dataset of more than
     `max_train_rows` rows of `train` is left out, and the log names it.
     """
 
@@ -67,7 +67,7 @@ def refit(
         refits: path of the archive (`RunArchive`).
     """
     train = read_subset(table, TRAIN)
-    everywhere = np.concatenate([read_subset(table, subset).commands for subset in (TRAIN, TEST, EXTRAPOLATION)])
+    everywhere = np.concatenate([read_subset(table, subset).inputs for subset in (TRAIN, TEST, EXTRAPOLATION)])
     if len(train) > settings.max_train_rows:
         logger.info(
             "%s is left out of the methods that refit: %d rows of train, refitting.max_train_rows is %d",
@@ -77,7 +77,7 @@ def refit(
         )
         RunArchive({CPU_SECONDS: np.array(0.0)}).write(refits)
         return
-    folds = grouped_folds(train.commands, settings.n_folds, settings.seed)
+    folds = folds_of(train, settings.n_folds, settings.seed)
     resamples = drawn_resamples(len(train), settings)
     fold_of_row = np.empty(len(train), dtype=np.intp)
     for fold, (_, held_out) in enumerate(folds):
@@ -91,7 +91,7 @@ def refit(
             predicted = []
             for rows in fits:
                 with stopwatch() as watch:
-                    model = fitted_model(spec, fit_settings, Samples(train.commands[rows], train.positions[rows]))
+                    model = fitted_model(spec, fit_settings, train.take(rows))
                 cpu_seconds += watch.cpu_seconds
                 predicted.append(model.predict(everywhere))
             predictions[run, part] = np.stack(predicted)

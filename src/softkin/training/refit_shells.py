@@ -15,7 +15,7 @@ from softkin.core.files import read_json
 from softkin.core.job import stopwatch
 from softkin.core.run_archive import CPU_SECONDS, RunArchive
 from softkin.core.runs import Run
-from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, Array, Samples
+from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, Array
 from softkin.core.shells import Shells, command_norm, outer_shells
 from softkin.data.table import read_subset
 from softkin.models.spec import ModelSpec
@@ -95,11 +95,11 @@ def refit_shells(
         fit_settings = recorded_settings(read_json(records[run]), settings.seed, settings.threads)
         max_rows = min(settings.max_rows, max_fit_rows.get(run.model, settings.max_rows))
         for place, (core, shell) in enumerate(parts):
-            samples = some_rows(Samples(train.commands[core], train.positions[core]), max_rows, settings.seed)
+            samples = some_rows(train.take(core), max_rows, settings.seed)
             with stopwatch() as watch:
                 model = fitted_model(spec, fit_settings, samples)
             cpu_seconds += watch.cpu_seconds
-            predictions[run, str(place)] = np.asarray(model.predict(train.commands[shell]))
+            predictions[run, str(place)] = np.asarray(model.predict(train.take(shell).inputs))
         logger.info("refitted on %d cores: %s", len(parts), " ".join(run))
     RunArchive({**shared, CPU_SECONDS: np.array(cpu_seconds)}, predictions).write(shells)
 

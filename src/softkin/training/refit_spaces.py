@@ -47,7 +47,7 @@ def refit_spaces(
         predictions: path of the predictions (Parquet: model, target_space, subset, m1_x.. in mm).
     """
     train = read_subset(table, TRAIN)
-    commands = {subset: read_subset(table, subset).commands for subset in SPACE_SUBSETS}
+    inputs = {subset: read_subset(table, subset).inputs for subset in SPACE_SUBSETS}
     columns = coordinate_columns(train.positions.shape[1] // 3)
     frames = [pd.DataFrame(columns=["model", "target_space", "subset", *columns])]
     for place, (model, spec) in enumerate(specs.items()):
@@ -62,7 +62,7 @@ def refit_spaces(
         except SoftkinError as error:
             logger.warning("%s is left out in %s: %s", model, other["target_space"], error)
             continue
-        for subset, rows in commands.items():
+        for subset, rows in inputs.items():
             frame = pd.DataFrame(np.asarray(estimator.predict(rows)), columns=columns)
             frames.append(frame.assign(model=model, target_space=other["target_space"], subset=subset))
         logger.info("%d of %d models fitted: %s in %s", place + 1, len(specs), model, other["target_space"])

@@ -62,8 +62,7 @@ class TuningResult:
 
 def bounded_rows(samples: Samples, max_rows: int, seed: int) -> Samples:
     """At most `max_rows` rows drawn without replacement, in their order."""
-    rows = sampled_rows(len(samples), max_rows, seed)
-    return Samples(samples.commands[rows], samples.positions[rows])
+    return samples.take(sampled_rows(len(samples), max_rows, seed))
 
 
 def fingerprint(name: str, samples: Samples, settings: TuningSettings, code: str) -> str:

@@ -1,8 +1,8 @@
 """Tune a point model on `train`: a study of each searched preset, over its parameters and the target space.
 
-The preset `tuned`, for commands in-domain, is scored by cross-validation grouped by distinct command; the preset
-`outer`, for extrapolation, by outer shells: fitted on the inner core of `train` by command norm, scored on the shell
-around it, for cores of several sizes.
+The preset `tuned`, for commands in-domain, is scored by cross-validation (see `folds_of`); the preset `outer`, for
+extrapolation, by outer shells: fitted on the inner core of `train` by command norm, scored on the shell around it, for
+cores of several sizes.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import numpy as np
 
 from softkin.core.errors import SoftkinError
 from softkin.core.files import replacing, write_json
-from softkin.core.folds import Folds, grouped_folds
+from softkin.core.folds import Folds, folds_of
 from softkin.core.runs import OUTER, TUNED
 from softkin.core.samples import TRAIN, Params, Samples, informative_coordinates
 from softkin.core.shells import command_norm, outer_shells
@@ -26,6 +26,7 @@ from softkin.models.spec import ModelSpec
 from softkin.models.target_spaces import TARGET_SPACES
 from softkin.training.bounded_space import bounded_space
 from softkin.training.kinematic_model import FitSettings, fitted_model
+from softkin.training.memory_space import first_memories, memory_space, simplest, taken_memory
 from softkin.training.study import Search, StudyFile, TuningResult, TuningSettings, bounded_rows, record, run_study
 
 if TYPE_CHECKING:
@@ -79,18 +80,18 @@ def part_errors(
     """
     own_params = dict(params)
     space = own_params.pop(SPACE)
+    memory = taken_memory(own_params)
     moving = informative_coordinates(samples.positions)
     for fitted_rows, scored_rows in parts:
-        settings = FitSettings(own_params, True, seed, threads, target_space=space, base=robot.base)
+        settings = FitSettings(own_params, True, seed, threads, target_space=space, base=robot.base, memory=memory)
         try:
-            fitted = Samples(samples.commands[fitted_rows], samples.positions[fitted_rows])
-            estimator = fitted_model(spec, settings, fitted)
+            model = fitted_model(spec, settings, samples.take(fitted_rows))
         except SoftkinError as error:
             logger.info("target space '%s' cannot be fitted on a part: %s", space, error)
             yield float("inf")
             return
-        predicted = estimator.predict(samples.commands[scored_rows])
-        yield float(np.abs(predicted - samples.positions[scored_rows])[:, moving].mean())
+        scored = samples.take(scored_rows)
+        yield float(np.abs(model.predict(scored.inputs) - scored.positions)[:, moving].mean())
 
 
 def some_markers(samples: Samples, max_markers: int) -> Samples:
@@ -105,7 +106,7 @@ def some_markers(samples: Samples, max_markers: int) -> Samples:
     # Counted from the end, so that the last marker is always drawn.
     drawn = moving[::-1][np.linspace(0, len(moving), max_markers, endpoint=False).astype(int)]
     kept = np.repeat(~moves | np.isin(np.arange(len(moves)), drawn), 3)
-    return Samples(samples.commands, samples.positions[:, kept])
+    return replace(samples, positions=samples.positions[:, kept])
 
 
 def possible_spaces(samples: Samples, spaces: Sequence[str], robot: Robot) -> list[str]:
@@ -161,7 +162,7 @@ def tune_model(
     """
     spaces = possible_spaces(samples, search.target_spaces, robot)
     rows = some_markers(bounded_rows(samples, settings.max_rows, settings.seed), search.max_markers)
-    parts = {TUNED: grouped_folds(rows.commands, settings.n_folds, settings.seed)}
+    parts = {TUNED: folds_of(rows, settings.n_folds, settings.seed)}
     if OUTER in search.scores:
         norm = command_norm(samples.commands, standardised=robot.standardised_norm)
         parts[OUTER] = outer_shells(norm.of(rows.commands), search.core_shares)
@@ -169,24 +170,26 @@ def tune_model(
     def errors_of(params: Params, by: str) -> Iterator[float]:
         return part_errors(spec, params, rows, parts[by], robot, settings.seed, threads)
 
-    draw = bounded_space(spec, rows.commands.shape[1], parts[preset])
+    draw = memory_space(lambda n_features: bounded_space(spec, n_features, parts[preset]), rows)
 
     def search_space(trial: Trial) -> Params:
         return {SPACE: trial.suggest_categorical(SPACE, spaces), **draw(trial)}
 
+    first = [{SPACE: space, **trial} for space in spaces for trial in spec.first_trials]
     decides = [preset, *spaces, str(robot), str(search.max_markers), *map(str, search.core_shares)]
     result = run_study(
         samples,
         search=Search(
             name=" ".join([spec.name, *decides]),
             space=search_space,
-            first_trials=[{SPACE: space, **first} for space in spaces for first in spec.first_trials],
+            first_trials=first_memories(first, rows),
             errors_of=lambda params: errors_of(params, preset),
             n_parts=len(parts[preset]),
         ),
         settings=replace(settings, n_trials=search.n_trials[preset]),
         file=file,
     )
+    result = simplest(result)
     others = {by: float(np.mean(list(errors_of(result.params, by)))) for by in parts if by != preset}
     return result, {SCORES[by]: score for by, score in {preset: result.score_mm, **others}.items()}
 
@@ -231,9 +234,11 @@ def tune_table(
             result.trials.to_csv(temporary, index=False)
         params = dict(result.params)
         space = params.pop(SPACE)
+        memory = taken_memory(params)
         finite = {name: score if np.isfinite(score) else None for name, score in scores.items()}
         other = {"other_space": other_space(result)} if preset == OUTER else {}
-        write_json(of_preset.parameters, {SPACE: space, "params": params, **finite, **other, **record(result)})
+        found = {SPACE: space, "memory": memory, "params": params, **finite, **other}
+        write_json(of_preset.parameters, found | record(result))
 
 
 def other_space(result: TuningResult) -> dict[str, Any] | None:
@@ -241,5 +246,6 @@ def other_space(result: TuningResult) -> dict[str, Any] | None:
     for params, score in result.complete:
         if params[SPACE] != result.params[SPACE]:
             own_params = {name: value for name, value in params.items() if name != SPACE}
-            return {SPACE: params[SPACE], "params": own_params, SCORES[OUTER]: score}
+            memory = taken_memory(own_params)
+            return {SPACE: params[SPACE], "memory": memory, "params": own_params, SCORES[OUTER]: score}
     return None

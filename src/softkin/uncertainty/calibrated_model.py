@@ -2,31 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Any
 
-import joblib
 import numpy as np
 from numpy.typing import NDArray
 
-from softkin.core.errors import ConfigError, DataError
-from softkin.core.files import replacing
-from softkin.core.job_records import load_model
-from softkin.core.run_archive import read_run_archive
-from softkin.core.runs import Run
-from softkin.core.samples import TRAIN, VALIDATION, Array, Samples, informative_coordinates
+from softkin.core.errors import DataError
+from softkin.core.samples import Array, Samples, coordinate_columns, informative_coordinates
 from softkin.core.shells import command_norm
-from softkin.data.table import read_subset
 from softkin.models.spec import ModelSpec
 from softkin.training.predict import spread_of
+from softkin.uncertainty.alarm import Watch
 from softkin.uncertainty.calibration_data import PointCalibration, Shell, ShellCalibration, SpreadCalibration
-from softkin.uncertainty.choose import deployed_choice
-from softkin.uncertainty.conformal import conformal_limit, error_scale, joint_scores, p_values
+from softkin.uncertainty.conformal import around, conformal_limit, error_scale, joint_scores, p_values
+from softkin.uncertainty.control_loop import State, checked_rows
 from softkin.uncertainty.intervals import in_domain_and_extrapolation
-from softkin.uncertainty.intervals.spec import AUTO, IntervalMethod
-from softkin.uncertainty.stored_outputs import norm_of, shells_of
+from softkin.uncertainty.intervals.spec import IntervalMethod
+from softkin.uncertainty.new_session import widened, zero_spread
+from softkin.uncertainty.recalibration import Recalibration, recalibration
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,10 +69,61 @@ class CalibratedModel:
     shells: Sequence[Shell] = ()
     #: Command norm, (n_rows, n_commands) -> (n_rows,).
     norm: Callable[[Array], Array] | None = None
+    #: What a few labelled poses of a new session changed.
+    recalibration: Recalibration | None = None
 
     def predict(self, commands: Array) -> Array:
-        """Predicted positions (n_rows, n_coordinates)."""
-        return np.asarray(self.estimator.predict(self._checked(commands)))
+        """Predicted positions (n_rows, n_coordinates).
+
+        A robot that remembers is taken to be sent each command from rest, in a session never seen: `follow` takes a
+        sequence, `start` a control loop. Rows may also be `Samples.inputs` of a recording.
+        """
+        predicted = np.asarray(self.estimator.predict(self._checked(commands)))
+        return predicted if self.recalibration is None else predicted + self.recalibration.zero
+
+    def follow(self, commands: Array, session: int | None = None) -> Array:
+        """Predicted positions (n_rows, n_coordinates) of commands sent one after the other, from rest."""
+        return self.predict(State(self, session).inputs(self._checked(commands)))
+
+    def start(self, session: int | None = None, confidence_level: float = 0.9) -> State:
+        """The state of the robot at rest: `state.step(command)` gives position, lower and upper bound in a loop."""
+        return State(self, session, confidence_level)
+
+    def recalibrate(self, commands: Array, positions: Array) -> CalibratedModel:
+        """The calibrated model of a new session, of 1 to 50 labelled poses: commands in the order in which they were
+        sent since it began (or `Samples.inputs`), positions (n_rows, n_coordinates) in mm. Its `recalibration.card()`
+        says what changed.
+
+        Raises:
+            DataError: a number of poses that is not taken, poses in extrapolation, or poses that contradict each other.
+        """
+        inputs = self._checked(commands)
+        if inputs.shape[1] == self.train.commands.shape[1]:
+            inputs = State(self).inputs(inputs)
+        outside = self.is_outside(inputs)
+        if outside.any():
+            raise DataError(
+                f"{int(outside.sum())} of {len(inputs)} commands lie in extrapolation, where errors are larger",
+                where=f"{self.dataset}, pose {int(np.argmax(outside))}",
+                fix="label poses at commands like those of `train`",
+            )
+        bare = replace(self, recalibration=None)
+        errors = np.atleast_2d(np.asarray(positions, dtype=np.float64)) - bare.predict(inputs)
+        spread = zero_spread(self.estimator)
+        found = recalibration(bare._residuals(), errors, self._moving(), spread, self.dataset)
+        return replace(self, recalibration=found)
+
+    def watch(self, rate: float = 0.01, session: int | None = None, seed: int = 0) -> Watch:
+        """An alarm fed pose by pose, from rest: `watch.see(command, position)`."""
+        state, names = State(self, session), coordinate_columns(self.known.truth.shape[1] // 3)
+        moving = self._moving()
+        return Watch(
+            self._residuals()[:, moving],
+            [name for name, moves in zip(names, moving, strict=True) if moves],
+            rate,
+            seed,
+            lambda command, position: (position - self.predict(state.inputs(command[None]))[0])[moving],
+        )
 
     def intervals(self, commands: Array, confidence_levels: Sequence[float]) -> Array:
         """Intervals (n_levels, n_rows, n_coordinates, 2) of each coordinate; levels ascending.
@@ -85,11 +131,16 @@ class CalibratedModel:
         In-domain they are those of the deployed method. In extrapolation, given shells, they are never narrower than
         those of split conformal prediction, nor than those of the deployed method if it is calibrated on a spread.
         """
-        commands = self._checked(commands)
-        data = replace(self.known, new=self.predict(commands), new_commands=commands)
-        if isinstance(data, SpreadCalibration):
-            data = replace(data, new_spread=spread_of(self.spec, self.estimator, self.train, commands))
-        bounds = self.method.intervals(data, confidence_levels)
+        inputs = self._checked(commands)
+        data = replace(self.known, new=self.predict(inputs), new_commands=self._commands(inputs))
+        if self.recalibration is not None:
+            halves = self.recalibration.half_widths(self._residuals(), confidence_levels)
+            bounds = around(data.new[None], halves)
+        else:
+            if isinstance(data, SpreadCalibration):
+                data = replace(data, new_spread=spread_of(self.spec, self.estimator, self.train, inputs))
+            bounds = self.method.intervals(data, confidence_levels)
+            bounds = widened(bounds, data.new, self.estimator, inputs, confidence_levels)
         if self.norm is None:
             return bounds
         shells = ShellCalibration(data, self.shells, self.norm, bounds, self.method.calibrated_on.has_spread)
@@ -97,7 +148,7 @@ class CalibratedModel:
 
     def is_outside(self, commands: Array) -> NDArray[np.bool_]:
         """Which commands (n_rows,) lie in extrapolation, where nothing is guaranteed."""
-        commands = self._checked(commands)
+        commands = self._commands(self._checked(commands))
         norm = self.norm or command_norm(self.train.commands, standardised=True).of
         known = replace(self.known, new_commands=commands)
         return in_domain_and_extrapolation.is_in_extrapolation(ShellCalibration(known, self.shells, norm))
@@ -127,6 +178,9 @@ class CalibratedModel:
         """Residuals (n_calibration, n_coordinates) of the calibration set, mm."""
         return self.known.truth - self.known.calibration
 
+    def _commands(self, inputs: Array) -> Array:
+        return inputs[:, : self.train.commands.shape[1]]
+
     def _scores(self, residuals: Array) -> Array:
         """Nonconformity of each pose (n_rows,)."""
         return joint_scores(residuals[:, self._moving()], self.scale)
@@ -135,15 +189,7 @@ class CalibratedModel:
         return informative_coordinates(self.train.positions)
 
     def _checked(self, commands: Array) -> Array:
-        rows = np.atleast_2d(np.asarray(commands, dtype=np.float64))
-        n_commands = self.train.commands.shape[1]
-        if rows.ndim != 2 or rows.shape[1] != n_commands or not np.isfinite(rows).all():
-            raise DataError(
-                f"expected finite commands of shape (n_rows, {n_commands}), got {rows.shape}",
-                where=self.dataset,
-                fix=f"pass one row of {n_commands} finite numbers per pose",
-            )
-        return rows
+        return checked_rows(commands, self.train, self.dataset)
 
 
 @dataclass(frozen=True, slots=True)
@@ -156,9 +202,9 @@ class FittedModel:
     estimator: Any
     train: Samples
 
-    def spread(self, commands: Array) -> Array:
-        """Spread of the model at commands (n_rows, n_commands): (n_rows, n_coordinates) in mm."""
-        return spread_of(self.spec, self.estimator, self.train, commands)
+    def spread(self, inputs: Array) -> Array:
+        """Spread of the model at inputs (n_rows, n_inputs): (n_rows, n_coordinates) in mm."""
+        return spread_of(self.spec, self.estimator, self.train, inputs)
 
 
 def calibrated(
@@ -178,7 +224,7 @@ def calibrated(
         norm: command norm, (n_rows, n_commands) -> (n_rows,), that goes with the shells.
     """
     train = model.train
-    predicted = np.asarray(model.estimator.predict(validation.commands))
+    predicted = np.asarray(model.estimator.predict(validation.inputs))
     known: dict[str, Array] = {
         "calibration": predicted,
         "truth": validation.positions,
@@ -188,60 +234,12 @@ def calibrated(
         "new_commands": validation.commands[:0],
     }
     if method.calibrated_on.has_spread:
-        known["train_spread"] = model.spread(train.commands)
-        known["calibration_spread"] = model.spread(validation.commands)
+        known["train_spread"] = model.spread(train.inputs)
+        known["calibration_spread"] = model.spread(validation.inputs)
         known["new_spread"] = known["calibration_spread"][:0]
-    errors = np.abs(train.positions - model.estimator.predict(train.commands))
+    errors = np.abs(train.positions - model.estimator.predict(train.inputs))
     scale = error_scale(errors[:, informative_coordinates(train.positions)])
     data = method.calibrated_on(**known)
     return CalibratedModel(
         model.dataset, model.spec, model.preset, method, model.estimator, train, data, scale, shells, norm
     )
-
-
-def build_calibrated_model(
-    table: str | Path,
-    *,
-    dataset: str,
-    choice: str | Path,
-    specs: Mapping[str, ModelSpec],
-    methods: Mapping[str, IntervalMethod[Any]],
-    models: Mapping[Run, str | Path],
-    shells: str | Path | None,
-    output: str | Path,
-) -> None:
-    """Write the calibrated model that a `choice` deploys.
-
-    Parameters:
-        table: the tidy table, of which `train` and `validation` are read.
-        dataset: its name.
-        choice: the candidates of `choose` (CSV).
-        specs: entries of the registry by model.
-        methods: interval methods by name.
-        models: run -> file of the fitted estimator (joblib).
-        shells: the file of the rule `refit_shells`, if there is one.
-        output: the calibrated model (joblib).
-
-    Raises:
-        ConfigError: no configured method puts an interval around a model.
-    """
-    best = deployed_choice(choice)
-    if best is None:
-        raise ConfigError(
-            "no configured method puts an interval around a model",
-            where=dataset,
-            fix="add scp_mapie to interval_methods",
-        )
-    run, train = Run(best["model"], best["preset"]), read_subset(table, TRAIN)
-    extrapolation: dict[str, Any] = {}
-    if best["outside"] == AUTO:
-        archive = read_run_archive(shells)
-        extrapolation = {"shells": shells_of(archive, train)[run], "norm": norm_of(archive)}
-    robot = calibrated(
-        FittedModel(dataset, specs[run.model], run.preset, load_model(models[run]), train),
-        methods[best["interval_method"]],
-        read_subset(table, VALIDATION),
-        **extrapolation,
-    )
-    with replacing(output) as temporary:
-        joblib.dump(robot, temporary, compress=3)

@@ -6,7 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from softkin.core.errors import DataError
-from softkin.core.folds import grouped_folds
+from softkin.core.folds import folds_of, grouped_folds
+from softkin.core.samples import Samples
+from tests.recorded_robot import recorded_arm
 
 
 @given(
@@ -27,3 +29,19 @@ def test_too_few_distinct_commands_is_an_error() -> None:
         grouped_folds(np.array([[0.0], [1.0]] * 20), 5, 0)
     assert error.value.where == "`train`"
     assert "tuning.n_folds and refitting.n_folds" in str(error.value.fix)
+
+
+def test_folds_of_a_recording_are_stretches_of_time() -> None:
+    rows = recorded_arm(400).take(np.random.default_rng(0).permutation(400))
+    assert rows.recording is not None
+    for fitted, held_out in folds_of(rows, 4, seed=0):
+        assert sorted([*fitted, *held_out]) == list(range(400))
+        assert abs(len(held_out) - 100) <= 10
+        in_time = np.sort(rows.recording.order[held_out])
+        assert (np.diff(in_time) > 1).sum() < 10  # at most ten stretches
+
+
+def test_folds_of_other_rows_are_by_distinct_command(samples: Samples) -> None:
+    ours, plain = folds_of(samples, 3, seed=1), grouped_folds(samples.commands, 3, seed=1)
+    for one, other in zip(ours, plain, strict=True):
+        np.testing.assert_array_equal(one[1], other[1])

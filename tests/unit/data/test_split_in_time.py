@@ -9,11 +9,12 @@ import pytest
 from numpy.typing import NDArray
 
 from softkin.core.errors import DataError
-from softkin.core.recording import Recording
+from softkin.core.recording import CommandMemory, Recording
 from softkin.core.samples import EXTRAPOLATION, SUBSETS, TEST, TRAIN, VALIDATION
 from softkin.data.split_in_time import split_in_time
 
 N = 300
+REST = CommandMemory(np.zeros(0), np.zeros(0))
 RNG = np.random.default_rng(0)
 ORDER = RNG.permutation(N) + 1
 SESSIONS = 1 + (ORDER > 120) + (ORDER > 240)
@@ -21,7 +22,7 @@ NORMS = RNG.uniform(size=N)
 
 
 def recording(session: NDArray[Any] = SESSIONS) -> Recording:
-    return Recording(ORDER, np.asarray(session, dtype=np.int64), np.zeros((N, 0)))
+    return Recording(ORDER, np.asarray(session, dtype=np.int64), np.zeros((N, 0)), REST)
 
 
 def rows_of(method: str, session: NDArray[Any] = SESSIONS, **options: int) -> dict[str, NDArray[Any]]:
@@ -63,6 +64,6 @@ def test_without_a_recording_there_is_no_time() -> None:
 
 def test_an_empty_subset_is_an_error() -> None:
     few = np.array([0.0, 0.1, 0.2])
-    known = Recording(np.arange(3), np.ones(3, dtype=np.int64), np.zeros((3, 0)))
+    known = Recording(np.arange(3), np.ones(3, dtype=np.int64), np.zeros((3, 0)), REST)
     with pytest.raises(DataError, match="validation would be empty"):
         split_in_time({"method": "later"}, few, known, 0.3)

@@ -85,6 +85,7 @@ def test_a_recorded_fit_is_repeated_to_the_bit(samples: Samples, target_space: s
         "skip_constant": settings.skip_constant,
         "target_space": settings.target_space,
         "base": settings.base,
+        "memory": settings.memory,
         "fit_seconds": 1.0,
     }
     again = recorded_settings(json.loads(json.dumps(record)), seed=3, threads=1)

@@ -28,7 +28,8 @@ RUN = Run("lr", "paper")
 
 
 def refitted(table: Path, folder: Path, settings: RefittingSettings = SETTINGS) -> RunArchive:
-    write_json(folder / "fit.json", {"params": {}, "skip_constant": False, "target_space": "cartesian", "base": None})
+    static = {"params": {}, "skip_constant": False, "target_space": "cartesian", "base": None, "memory": None}
+    write_json(folder / "fit.json", static)
     refit(
         table,
         dataset="arm",

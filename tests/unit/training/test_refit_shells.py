@@ -30,7 +30,8 @@ SETTINGS = ShellSettings(core_shares=(0.5, 0.8), max_rows=1000, standardised_nor
 
 
 def refitted(table: Path, folder: Path, settings: ShellSettings = SETTINGS, **max_fit_rows: int) -> RunArchive:
-    write_json(folder / "fit.json", {"params": {}, "skip_constant": False, "target_space": "cartesian", "base": None})
+    static = {"params": {}, "skip_constant": False, "target_space": "cartesian", "base": None, "memory": None}
+    write_json(folder / "fit.json", static)
     refit_shells(
         table,
         dataset="arm",

@@ -12,7 +12,12 @@ from softkin.models import MODELS
 from softkin.training.refit_spaces import refit_spaces
 from tests.conftest import bending_arm
 
-BEST = {"target_space": "cartesian", "params": {"degree": 1, "interaction_only": False}, "shell_mae_mm": 1.0}
+BEST = {
+    "target_space": "cartesian",
+    "memory": None,
+    "params": {"degree": 1, "interaction_only": False},
+    "shell_mae_mm": 1.0,
+}
 BASE = {"origin": [0.0, 0.0, 0.0], "axis": [0.0, 0.0, 1.0]}
 
 
@@ -37,7 +42,7 @@ def test_a_model_is_fitted_in_the_space_that_was_not_chosen(tmp_path: Path) -> N
     arms = {subset: bending_arm(80, seed=place) for place, subset in enumerate(SUBSETS)}
     garbage = arms | {s: Samples(arms[s].commands, arms[s].positions + 1e6) for s in ("test", "extrapolation")}
     write_table(to_table(garbage), tmp_path / "table.parquet")
-    other = {"target_space": "curvature", "params": BEST["params"], "shell_mae_mm": 0.1}
+    other = {"target_space": "curvature", "memory": None, "params": BEST["params"], "shell_mae_mm": 0.1}
     ridge = other | {"params": {"degree": 2, "alpha": 1e-6}}
     frame = refitted(tmp_path / "table.parquet", tmp_path, {"lr": other, "gp": None, "ridge": ridge})
     assert set(zip(frame["model"], frame["target_space"], strict=True)) == {("lr", "curvature"), ("ridge", "curvature")}

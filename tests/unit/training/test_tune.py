@@ -151,5 +151,10 @@ def test_the_other_space_is_that_of_the_best_trial_in_another_one() -> None:
         ("curvature", 1, 0.1), ("curvature", 2, 0.2), ("cartesian", 3, 0.3), ("cartesian", 1, 0.4)
     )]  # fmt: skip
     result = TuningResult(*trials[0], pd.DataFrame(), "", trials)
-    assert other_space(result) == {"target_space": "cartesian", "params": {"degree": 3}, "shell_mae_mm": 0.3}
+    assert other_space(result) == {
+        "target_space": "cartesian",
+        "memory": None,
+        "params": {"degree": 3},
+        "shell_mae_mm": 0.3,
+    }
     assert other_space(replace(result, complete=trials[:2])) is None

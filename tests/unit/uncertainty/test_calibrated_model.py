@@ -17,7 +17,8 @@ from softkin.core.samples import SUBSETS, Array, Samples
 from softkin.data.table import to_table, write_table
 from softkin.models import MODELS
 from softkin.training.kinematic_model import FitSettings, fitted_model
-from softkin.uncertainty.calibrated_model import CalibratedModel, FittedModel, build_calibrated_model
+from softkin.uncertainty.build_calibrated_model import build_calibrated_model
+from softkin.uncertainty.calibrated_model import CalibratedModel, FittedModel
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from tests.conftest import bending_arm
 

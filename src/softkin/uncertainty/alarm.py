@@ -1,0 +1,74 @@
+"""An alarm fed pose by pose: a conformal test martingale that grows when poses stop being like those calibrated on.
+
+While poses are exchangeable with the calibration set, p-values are independent and uniform, and by Ville's inequality
+the martingale reaches 1 / rate with a probability of at most `rate`, however long one watches (Vovk, Gammerman and
+Shafer 2005, section 7.1). Signed errors make it see a shifted zero at once. Bets are those of crepes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from softkin.core.samples import Array
+from softkin.uncertainty.conformal import p_values
+
+
+@dataclass(frozen=True, slots=True)
+class Alarm:
+    """Exchangeability broke: noticed at the `pose` of this number (from 1), mostly in these `coordinates`, at this
+    value of the `martingale`.
+    """
+
+    pose: int
+    coordinates: tuple[str, ...]
+    martingale: float
+
+
+class Watch:
+    """Watches poses for a break of exchangeability, at a `rate` of false alarms over all time.
+
+    Parameters:
+        calibration_errors: measured minus predicted positions (n_calibration, n_coordinates) in mm.
+        names: of the coordinates.
+        rate: how often a watch that has no reason may ever raise an alarm.
+        seed: of the smoothing of p-values.
+        error: error(command, position), measured minus predicted position (n_coordinates,), asked once for each pose in
+            turn; None where errors are given.
+    """
+
+    def __init__(
+        self,
+        calibration_errors: Array,
+        names: Sequence[str],
+        rate: float = 0.01,
+        seed: int = 0,
+        error: Callable[[Array, Array], Array] | None = None,
+    ) -> None:
+        from crepes.martingales import SimpleJumper, StepBettingFunction
+
+        self.errors, self.names, self.rate, self.error = calibration_errors, tuple(names), rate, error
+        self.p_values = np.empty((0, len(self.names)))
+        self.alarm: Alarm | None = None
+        self._rng = np.random.default_rng(seed)
+        self._martingale: Any = SimpleJumper(bf=StepBettingFunction())
+
+    def see(self, command: Array, position: Array) -> Alarm | None:
+        """The alarm, if there is one by now, after the `position` (mm) measured at `command`; both are vectors."""
+        assert self.error is not None
+        return self.judge(self.error(np.asarray(command, dtype=np.float64), np.asarray(position, dtype=np.float64)))
+
+    def judge(self, error: Array) -> Alarm | None:
+        """The same, given measured minus predicted position (n_coordinates,) in mm."""
+        new = p_values(self.errors, error[None], rng=self._rng)
+        self.errors, self.p_values = np.vstack([self.errors, error]), np.vstack([self.p_values, new])
+        if self.alarm is None:
+            last = np.array([self._martingale.apply(column)[-1] for column in self.p_values.T])
+            # The mean of martingales is one, however they depend on each other.
+            if last.mean() >= 1 / self.rate:
+                grown = [name for name, value in zip(self.names, last, strict=True) if value >= 1 / self.rate]
+                self.alarm = Alarm(len(self.p_values), tuple(grown), float(last.mean()))
+        return self.alarm
