@@ -233,12 +233,10 @@ def tune_table(
         with replacing(of_preset.trials) as temporary:
             result.trials.to_csv(temporary, index=False)
         params = dict(result.params)
-        space = params.pop(SPACE)
-        memory = taken_memory(params)
         finite = {name: score if np.isfinite(score) else None for name, score in scores.items()}
         other = {"other_space": other_space(result)} if preset == OUTER else {}
-        found = {SPACE: space, "memory": memory, "params": params, **finite, **other}
-        write_json(of_preset.parameters, found | record(result))
+        found = {SPACE: params.pop(SPACE), "memory": taken_memory(params), "params": params}
+        write_json(of_preset.parameters, {**found, **finite, **other, **record(result)})
 
 
 def other_space(result: TuningResult) -> dict[str, Any] | None:

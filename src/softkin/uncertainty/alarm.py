@@ -9,12 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from softkin.core.samples import Array
 from softkin.uncertainty.conformal import p_values
+
+#: Share of the capital that changes its bet at each pose.
+JUMP = 0.01
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,13 +50,15 @@ class Watch:
         seed: int = 0,
         error: Callable[[Array, Array], Array] | None = None,
     ) -> None:
-        from crepes.martingales import SimpleJumper, StepBettingFunction
+        from crepes.martingales import StepBettingFunction
 
         self.errors, self.names, self.rate, self.error = calibration_errors, tuple(names), rate, error
         self.p_values = np.empty((0, len(self.names)))
         self.alarm: Alarm | None = None
         self._rng = np.random.default_rng(seed)
-        self._martingale: Any = SimpleJumper(bf=StepBettingFunction())
+        self._bets = StepBettingFunction()
+        n_bets = self._bets.apply(np.array([0.5])).shape[1]
+        self._capital = np.full((len(self.names), n_bets), 1 / n_bets)
 
     def see(self, command: Array, position: Array) -> Alarm | None:
         """The alarm, if there is one by now, after the `position` (mm) measured at `command`; both are vectors."""
@@ -65,10 +69,12 @@ class Watch:
         """The same, given measured minus predicted position (n_coordinates,) in mm."""
         new = p_values(self.errors, error[None], rng=self._rng)
         self.errors, self.p_values = np.vstack([self.errors, error]), np.vstack([self.p_values, new])
-        if self.alarm is None:
-            last = np.array([self._martingale.apply(column)[-1] for column in self.p_values.T])
-            # The mean of martingales is one, however they depend on each other.
-            if last.mean() >= 1 / self.rate:
-                grown = [name for name, value in zip(self.names, last, strict=True) if value >= 1 / self.rate]
-                self.alarm = Alarm(len(self.p_values), tuple(grown), float(last.mean()))
+        self._capital *= self._bets.apply(new[0])
+        last = self._capital.sum(axis=1)
+        # The update of crepes' SimpleJumper, which starts anew with each call.
+        self._capital = (1 - JUMP) * self._capital + JUMP * last[:, None] / self._capital.shape[1]
+        # The mean of martingales is one, however they depend on each other.
+        if self.alarm is None and last.mean() >= 1 / self.rate:
+            grown = [name for name, value in zip(self.names, last, strict=True) if value >= 1 / self.rate]
+            self.alarm = Alarm(len(self.p_values), tuple(grown), float(last.mean()))
         return self.alarm

@@ -125,14 +125,19 @@ class CalibratedModel:
             lambda command, position: (position - self.predict(state.inputs(command[None]))[0])[moving],
         )
 
-    def intervals(self, commands: Array, confidence_levels: Sequence[float]) -> Array:
-        """Intervals (n_levels, n_rows, n_coordinates, 2) of each coordinate; levels ascending.
+    def intervals(self, commands: Array, confidence_levels: Sequence[float], predicted: Array | None = None) -> Array:
+        """Intervals (n_levels, n_rows, n_coordinates, 2) of each coordinate; levels ascending. `predicted` is what
+        `predict` says of the commands, where it is known.
 
         In-domain they are those of the deployed method. In extrapolation, given shells, they are never narrower than
         those of split conformal prediction, nor than those of the deployed method if it is calibrated on a spread.
         """
         inputs = self._checked(commands)
-        data = replace(self.known, new=self.predict(inputs), new_commands=self._commands(inputs))
+        data = replace(
+            self.known,
+            new=self.predict(inputs) if predicted is None else predicted,
+            new_commands=self._commands(inputs),
+        )
         if self.recalibration is not None:
             halves = self.recalibration.half_widths(self._residuals(), confidence_levels)
             bounds = around(data.new[None], halves)

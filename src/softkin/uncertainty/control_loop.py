@@ -31,7 +31,7 @@ class State:
             raise DataError(
                 f"no session {session} in its recording ({known})",
                 where=robot.dataset,
-                fix="leave the session out: a new one has the average zero until recalibrate",
+                fix="leave the session out; a new one has the average zero until it is recalibrated",
             )
         self.memory: Array | None = None
         self.last: Array | None = None
@@ -47,9 +47,10 @@ class State:
 
     def step(self, command: Array) -> Step:
         """Send one command (n_commands,): position and interval."""
-        inputs = self.inputs(np.asarray(command, dtype=np.float64)[None])
-        bounds = self.robot.intervals(inputs, self.levels)[0, 0]
-        return Step(self.robot.predict(inputs)[0], bounds[:, 0], bounds[:, 1])
+        inputs = self.inputs(checked_rows(command, self.robot.train, self.robot.dataset))
+        predicted = self.robot.predict(inputs)
+        bounds = self.robot.intervals(inputs, self.levels, predicted)[0, 0]
+        return Step(predicted[0], bounds[:, 0], bounds[:, 1])
 
 
 def checked_rows(commands: Array, train: Samples, where: str) -> Array:

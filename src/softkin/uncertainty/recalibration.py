@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.stats import norm, t
 
 from softkin.core.errors import DataError
 from softkin.core.samples import Array
@@ -28,7 +29,8 @@ LARGEST_SCALE = 6.0
 @dataclass(frozen=True, slots=True)
 class Recalibration:
     """What a few labelled poses changed: `zero` (n_coordinates,) in mm is added to predictions; the calibration set's
-    limits are multiplied by `stretch` (n_coordinates,). `n_poses` were labelled.
+    limits are multiplied by `stretch` (n_coordinates,), and by how much farther Student's t reaches than the normal
+    distribution, as the scale is known from few poses. `n_poses` were labelled.
     """
 
     zero: Array
@@ -37,7 +39,10 @@ class Recalibration:
 
     def half_widths(self, calibration_errors: Array, confidence_levels: Sequence[float]) -> Array:
         """Half-widths (n_levels, 1, n_coordinates) in mm, from the errors (n_calibration, n_coordinates)."""
-        return conformal_limits(np.abs(calibration_errors), confidence_levels)[:, None] * self.stretch
+        tail = (1 + np.asarray(confidence_levels)) / 2
+        farther = t.ppf(tail, PRIOR_POSES + self.n_poses - 1) / norm.ppf(tail)
+        limits = conformal_limits(np.abs(calibration_errors), confidence_levels)
+        return np.asarray((farther[:, None] * limits)[:, None] * self.stretch)
 
     def card(self) -> str:
         """What changed, and what is promised now."""

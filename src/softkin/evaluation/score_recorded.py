@@ -1,0 +1,201 @@
+"""Score a model in time: on the published split, in sessions never seen, and later in the same recording.
+
+Sessions never seen and later rows are in-domain rows of the recording: `train`, `validation` and `test`, in the order
+of time. For each, the model of a run is fitted anew with its parameters, with its memory and without, on the rows
+before; a fifth of these, in stretches of time, is held out to calibrate on. Truth of the rows that are scored is used
+by recalibration, which labels a few of them, and by intervals that take rows in turn, and by nothing else.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from softkin.core.files import replacing
+from softkin.core.folds import folds_of
+from softkin.core.metrics.interval import covered, widths, winkler_scores
+from softkin.core.metrics.point import mae_mm, rmse_mm
+from softkin.core.recording import Recording
+from softkin.core.rows import Indices
+from softkin.core.samples import (
+    EXTRAPOLATION,
+    SUBSETS,
+    TEST,
+    TRAIN,
+    VALIDATION,
+    Array,
+    Samples,
+    informative_coordinates,
+)
+from softkin.data.table import read_subset
+from softkin.models.spec import ModelSpec
+from softkin.training.kinematic_model import STATIC, FitSettings, fitted_model
+from softkin.uncertainty.conformal import around, conformal_limits, weighted_limits
+from softkin.uncertainty.labelled.adaptive import trajectory
+from softkin.uncertainty.labelled.fixed_weights import DECAY
+from softkin.uncertainty.new_session import zero_spread
+from softkin.uncertainty.recalibration import recalibration
+
+PUBLISHED, NEXT_SESSION, LATER = "published", "next_session", "later"
+PLAIN, RECALIBRATED, FIRST_POSES = "split conformal", "recalibrated", "recalibrated on the first poses"
+ADAPTIVE, FIXED_WEIGHTS = "adaptive", "fixed weights"
+COLUMNS = ["dataset", "split", "model", "preset", "memory", "subset", "method", "rmse_mm", "mae_mm", "coverage"]
+COLUMNS += ["mean_width_mm", "winkler_mm", "n_recalibration_poses"]
+N_POSES, N_DRAWS, N_FOLDS, LATER_SHARE = (5, 10, 20), 200, 5, 0.8
+
+
+@dataclass(frozen=True, slots=True)
+class RecordedRun:
+    """A run on a recording: its `spec`, `preset` and the `settings` of its fit; intervals at a `confidence_level`."""
+
+    spec: ModelSpec
+    preset: str
+    settings: FitSettings
+    confidence_level: float
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """What a fitted model errs by, measured minus predicted position (n_rows, n_coordinates) in mm, moving coordinates
+    alone: on rows to calibrate on and on new ones, both in the order of time.
+    """
+
+    known: Array
+    new: Array
+    spread: Array | None
+
+
+def score_recorded(table: str | Path, *, dataset: str, run: RecordedRun, output: str | Path) -> None:
+    """Write the scores of a run in time (CSV, `COLUMNS`), mm; without a recording the columns alone.
+
+    Coverage, width and Winkler score are means over moving coordinates. Of `N_DRAWS` draws of labelled poses, means.
+
+    Parameters:
+        table: path of the tidy table (Parquet).
+        dataset: its name.
+        run: the run that is scored.
+        output: path of the scores.
+    """
+    samples = {subset: read_subset(table, subset) for subset in SUBSETS}
+    rows: list[dict[str, Any]] = []
+    if samples[TRAIN].recording is not None:
+        settings = {str(memory["memory"]): memory for memory in (STATIC, run.settings.memory or STATIC)}
+        for memory, told in settings.items():
+            of_memory = replace(run, settings=replace(run.settings, memory=told))
+            key = {"dataset": dataset, "model": run.spec.name, "preset": run.preset, "memory": memory}
+            rows += [key | row for row in scored(samples, of_memory)]
+    with replacing(output) as temporary:
+        pd.DataFrame(rows, columns=COLUMNS).to_csv(temporary, index=False)
+
+
+def scored(samples: Mapping[str, Samples], run: RecordedRun) -> Iterator[dict[str, Any]]:
+    """The rows of one memory: split, subset, method and scores."""
+    level = run.confidence_level
+    model = fitted_model(run.spec, run.settings, samples[TRAIN])
+    moving = informative_coordinates(samples[TRAIN].positions)
+    errors = {name: (rows.positions - model.predict(rows.inputs))[:, moving] for name, rows in samples.items()}
+    for subset in (TEST, EXTRAPOLATION):
+        yield {"split": PUBLISHED, "subset": subset} | plain(Part(errors[VALIDATION], errors[subset], None), level)
+    rows = in_time([samples[subset] for subset in (TRAIN, VALIDATION, TEST)])
+    assert rows.recording is not None
+    first = np.arange(len(rows)) < LATER_SHARE * len(rows)
+    yield from over_time(LATER, f"last {1 - LATER_SHARE:.0%}", part(rows.take(first), rows.take(~first), run), level)
+    session = rows.recording.session
+    for known, new in next_sessions(sorted(set(session.tolist()))):
+        name = f"{new} after {'+'.join(map(str, known))}"
+        of_part = part(rows.take(np.isin(session, known)), rows.take(session == new), run)
+        yield from over_time(NEXT_SESSION, name, of_part, level)
+        yield from relabelled(name, of_part, level, run.settings.seed)
+
+
+def next_sessions(sessions: list[int]) -> list[tuple[list[int], int]]:
+    """(sessions fitted on, the session that is scored): the first alone before each other, and all before the last."""
+    pairs = [(sessions[:1], new) for new in sessions[1:]]
+    return pairs + ([(sessions[:-1], sessions[-1])] if len(sessions) > 2 else [])
+
+
+def in_time(parts: list[Samples]) -> Samples:
+    """Rows of several subsets in the order of their recording."""
+    known = [each.recording for each in parts if each.recording is not None]
+    order, session = (np.concatenate([getattr(each, name) for each in known]) for name in ("order", "session"))
+    recording = Recording(order, session, np.concatenate([each.memory for each in known]), known[0].robot)
+    commands, positions = (
+        np.concatenate([getattr(each, name) for each in parts]) for name in ("commands", "positions")
+    )
+    return Samples(commands, positions, recording).take(np.argsort(order, kind="stable"))
+
+
+def part(before: Samples, after: Samples, run: RecordedRun) -> Part:
+    """Errors of the model fitted on rows before, on those held out of them and on the rows after."""
+    fitted_rows, held_out = folds_of(before, N_FOLDS, run.settings.seed)[0]
+    model = fitted_model(run.spec, run.settings, before.take(fitted_rows))
+    moving = informative_coordinates(before.positions)
+    known, new = (
+        (rows.positions - model.predict(rows.inputs))[:, moving] for rows in (before.take(np.sort(held_out)), after)
+    )
+    spread = zero_spread(model)
+    return Part(known, new, None if spread is None else spread[moving])
+
+
+def scores(errors: Array, halves: Array, level: float) -> dict[str, float]:
+    """Scores of symmetric intervals of half-widths (n_rows or 1, n_coordinates) around predictions that err by so
+    much.
+    """
+    bounds = around(np.zeros_like(errors), np.broadcast_to(halves, errors.shape))
+    zero = np.zeros_like(errors)
+    return {
+        "rmse_mm": rmse_mm(errors, zero),
+        "mae_mm": mae_mm(errors, zero),
+        "coverage": float(covered(errors, bounds).mean()),
+        "mean_width_mm": float(widths(bounds).mean()),
+        "winkler_mm": float(winkler_scores(errors, bounds, level).mean()),
+    }
+
+
+def plain(of_part: Part, level: float) -> dict[str, Any]:
+    """Split conformal prediction."""
+    halves = conformal_limits(np.abs(of_part.known), [level])
+    return {"method": PLAIN, "n_recalibration_poses": 0} | scores(of_part.new, halves, level)
+
+
+def over_time(split: str, subset: str, of_part: Part, level: float) -> Iterator[dict[str, Any]]:
+    """Split conformal prediction, and the methods that take rows in turn: adaptive inference, whose rows are measured
+    one by one, and fixed weights, whose calibration rows count the more the later they were recorded.
+    """
+    key = {"split": split, "subset": subset, "n_recalibration_poses": 0}
+    yield key | plain(of_part, level)
+    halves = trajectory(np.abs(of_part.known), np.abs(of_part.new), level)
+    # A level that has left 0 to 1 asks for everything: the widest calibration error stands for it in means of widths.
+    finite = np.where(np.isfinite(halves), halves, np.abs(of_part.known).max(axis=0))
+    yield key | {"method": ADAPTIVE} | scores(of_part.new, finite, level)
+    weights = DECAY ** np.arange(len(of_part.known), 0, -1.0)
+    yield (
+        key
+        | {"method": FIXED_WEIGHTS}
+        | scores(of_part.new, weighted_limits(np.abs(of_part.known), weights, np.ones(1), [level])[0], level)
+    )
+
+
+def relabelled(subset: str, of_part: Part, level: float, seed: int) -> Iterator[dict[str, Any]]:
+    """Recalibration on poses drawn from the new session, and on its first ones; scored on the others."""
+    rng = np.random.default_rng(seed)
+    key = {"split": NEXT_SESSION, "subset": subset}
+    for n_poses in N_POSES:
+        drawn = [recalibrated(of_part, rng.permutation(len(of_part.new))[:n_poses], level) for _ in range(N_DRAWS)]
+        means = pd.DataFrame(drawn).mean().to_dict()
+        yield key | {"method": RECALIBRATED, "n_recalibration_poses": n_poses} | means
+    first = {"method": FIRST_POSES, "n_recalibration_poses": N_POSES[1]}
+    yield key | first | recalibrated(of_part, np.arange(N_POSES[1]), level)
+
+
+def recalibrated(of_part: Part, labelled: Indices, level: float) -> dict[str, float]:
+    """Scores of the rows that are not labelled."""
+    moving = np.ones(of_part.new.shape[1], dtype=bool)
+    found = recalibration(of_part.known, of_part.new[labelled], moving, of_part.spread, "recording")
+    rest = np.delete(of_part.new, labelled, axis=0) - found.zero
+    return scores(rest, found.half_widths(of_part.known, [level])[0], level)
