@@ -19,11 +19,13 @@ PACKAGE = Path(__file__).parents[1]
 WITHOUT_EFFECT = {
     "softkin": "names the public face and the version",
     "softkin.core.clocks": "what a job used",
+    "softkin.core.credentials": "keeps credentials out of what is shown",
     "softkin.core.durations": "words of the log",
     "softkin.core.errors": "what is said when there is no result",
     "softkin.core.files": "how a file is put in place, whatever it holds",
     "softkin.core.job_records": "notices what was not written by softkin",
     "softkin.core.job": "log and stopwatch of a job",
+    "softkin.core.urls": "what of a URL is shown",
 }
 #: Modules that a rule uses only where the configuration or a wildcard names them: registries, whose named entries are
 #: inputs by themselves, and the cleaning of rows.
