@@ -83,11 +83,6 @@ def test_every_other_variable_is_text_too(house: Path, value: str) -> None:
     assert heard(house, "prune", KEEP=value) == ["-m", "softkin.cli.prune", f"--keep={value}", "--yes"]
 
 
-def test_the_ui_listens_on_this_machine_alone(house: Path) -> None:
-    arguments = heard(house, "ui")
-    assert arguments[arguments.index("--host") + 1] == "127.0.0.1"
-
-
 def test_variables_of_the_environment_are_text_too(house: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("FILE", "$(shell touch hit)$(touch hit)")
     assert heard(house, "new-robot")[-1] == "$(shell touch hit)$(touch hit)"
