@@ -5,7 +5,7 @@ from softkin.core.job import job
 from softkin.data.audit.data_card import audit
 
 dataset = snakemake.wildcards.dataset
-with job(snakemake.log[0], f"audit {dataset}", snakemake.output):
+with job(snakemake.log[0], f"audit {dataset}", snakemake.output, snakemake.input):
     audit(
         snakemake.input.table,
         dataset=dataset,

@@ -22,7 +22,7 @@ parameters = {
         files.models[place * n_models : (place + 1) * n_models], params.searched, "parameters.json"
     ).items()
 }
-with job(snakemake.log[0], "build tables", snakemake.output):
+with job(snakemake.log[0], "build tables", snakemake.output, snakemake.input):
     tables = read_tables(
         {name: DatasetFiles(*of_dataset) for name, of_dataset in zip(params.sources, by_dataset, strict=True)},
         sources=params.sources,

@@ -15,7 +15,7 @@ files, params, output, dataset = snakemake.input, snakemake.params, snakemake.ou
 methods = {name: INTERVAL_METHODS[name] for name in params.methods}
 models = files_of_runs(files.models, params.runs, "model.joblib")
 parameters = files_of_runs(files.models, params.searched, "parameters.json")
-with job(snakemake.log[0], f"calibrate {dataset}", snakemake.output):
+with job(snakemake.log[0], f"calibrate {dataset}", snakemake.output, snakemake.input):
     outputs = stored_outputs(files, params)
     candidates = deployable_runs(list(models), parameters, params.objective)
     choose(outputs, methods=methods, runs=candidates, seed=params.seed, regime=params.regime, choice=output.choice)

@@ -10,18 +10,34 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from softkin.core.damage import damaged
+from softkin.core.strict_json import NotStrictJson, parse_json
+
 
 @contextmanager
 def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
-    """Yield a temporary path beside `path`; rename it into place when the block succeeds, delete it otherwise."""
+    """Yield a temporary path beside `path`; when the block succeeds it is on the disk, then renamed into place; it is
+    deleted otherwise. So a power cut leaves the old file or the new one.
+    """
     final = Path(path)
     final.parent.mkdir(parents=True, exist_ok=True)
     temporary = final.with_name(f".{final.name}.{os.getpid()}.part")
     try:
         yield temporary
+        _to_disk(temporary)
         os.replace(temporary, final)
+        _to_disk(final.parent)
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def _to_disk(path: Path) -> None:
+    """Wait until a file, or the names in a folder, are on the disk."""
+    descriptor = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
 
 
 def write_text(path: str | os.PathLike[str], text: str) -> None:
@@ -36,8 +52,15 @@ def write_json(path: str | os.PathLike[str], value: Any) -> None:
 
 
 def read_json(path: str | os.PathLike[str]) -> Any:
-    """Read a JSON file."""
-    return json.loads(Path(path).read_text(encoding="utf-8"))
+    """Read a JSON file that softkin wrote.
+
+    Raises:
+        DataError: it is cut off, or something else.
+    """
+    try:
+        return parse_json(Path(path).read_text(encoding="utf-8"))
+    except (NotStrictJson, UnicodeDecodeError) as error:
+        raise damaged(path, str(error)) from error
 
 
 def file_sha256(path: str | os.PathLike[str]) -> str:

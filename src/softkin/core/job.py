@@ -15,7 +15,9 @@ from types import TracebackType
 
 from softkin.core.clocks import used
 from softkin.core.credentials import hide_known
+from softkin.core.damage import check_ends
 from softkin.core.errors import SoftkinError
+from softkin.core.explained import explained
 from softkin.core.job_records import forget_job, record_job
 
 logger = logging.getLogger("softkin")
@@ -39,14 +41,15 @@ def _print_discreetly(kind: type[BaseException], error: BaseException, trace: Tr
 
 
 @contextmanager
-def job(log: str, label: str, outputs: Iterable[str] = ()) -> Iterator[None]:
+def job(log: str, label: str, outputs: Iterable[str] = (), inputs: Iterable[str] = ()) -> Iterator[None]:
     """Run a job: messages go to the file `log` and, from level INFO, to the terminal, marked with the time of day and
     `label`. Under `ON_A_SCREEN` nothing goes to the terminal, and what libraries write to it goes to the file.
 
     Where it succeeds, what it wrote is recorded: the hashes of its `outputs` (`softkin.core.job_records`).
 
-    A `SoftkinError` ends the job with its message alone and exit status 1; any other exception is a defect of softkin
-    and keeps its traceback, also in the log file.
+    A `SoftkinError` ends the job with its message alone and exit status 1, and so does an error that a damaged one of
+    its `inputs`, a library's store or the machine explains; the traceback is in the log file alone. Any other exception
+    is a defect of softkin and keeps its traceback.
     """
     written = list(outputs)
     if written:
@@ -66,17 +69,23 @@ def job(log: str, label: str, outputs: Iterable[str] = ()) -> Iterator[None]:
     logging.getLogger("py.warnings").addHandler(to_file)
     try:
         with _terminal_into(file.fileno()) if screen else nullcontext():
+            check_ends(inputs)
             yield
         if written:
             record_job(log, written)
     except SoftkinError as error:
         logger.error("%s", error)
         raise SystemExit(1) from error
-    except BaseException:
-        logger.handlers = [to_file]
+    except BaseException as error:
+        handlers, logger.handlers = logger.handlers, [to_file]
         logger.exception("the job stopped")
-        sys.excepthook = _print_discreetly
-        raise
+        known = explained(error, inputs) if isinstance(error, Exception) else None
+        if known is None:
+            sys.excepthook = _print_discreetly
+            raise
+        logger.handlers = handlers
+        logger.error("%s", known)
+        raise SystemExit(1) from error
     finally:
         logger.handlers = [to_file]
         logger.info("%s", used())

@@ -6,7 +6,8 @@ Snakemake spends a quarter of a millisecond on each file that a rule declares as
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Mapping, Sequence
+import os
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TypeVar
 
@@ -27,19 +28,28 @@ def write_manifest(manifest: str | Path, files: Iterable[str | Path]) -> None:
 
 
 def renew_manifest(manifest: str | Path) -> None:
-    """Make a manifest true again: delete it where a file is missing, so that its job runs again; write it anew where
-    the content of a file has changed, so that what reads it runs again. No manifest, or a true one, is left alone.
+    """Make a manifest true again: delete it where a file is missing or it is damaged, so that its job runs again; write
+    it anew where the content of a file has changed, so that what reads it runs again. No manifest, or a true one, is
+    left alone.
     """
     path = Path(manifest)
     try:
         written = path.stat().st_mtime_ns
         hashes = {path.parent / name: known for name, known in read_json(path).items()}
         newer = [file for file in hashes if file.stat().st_mtime_ns > written]
-    except FileNotFoundError:
+    except (FileNotFoundError, DataError):
         path.unlink(missing_ok=True)
         return
     if any(sha256_of([file]) != hashes[file] for file in newer):
         write_manifest(path, hashes)
+
+
+def with_listed(paths: Iterable[str | os.PathLike[str]]) -> Iterator[Path]:
+    """The paths, each manifest among them followed by the files that it holds."""
+    for path in map(Path, paths):
+        yield path
+        if path.name == MANIFEST and path.is_file():
+            yield from (path.parent / name for name in read_json(path))
 
 
 def files_of(manifest: str | Path, names: Mapping[Name, str]) -> dict[Name, Path]:

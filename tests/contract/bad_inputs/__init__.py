@@ -11,6 +11,7 @@ from tests.contract.bad_inputs import (
     entries,
     new_robots,
     published_files,
+    results,
     tables,
 )
 from tests.contract.bad_inputs.case import BadInput
@@ -24,4 +25,5 @@ CASES: dict[str, list[BadInput]] = {
     "Published files (JSON)": published_files.CASES,
     "Tables of one's own (CSV, Parquet)": tables.CASES,
     "New robots": new_robots.CASES,
+    "Results that are damaged, and what a machine refuses": results.CASES,
 }

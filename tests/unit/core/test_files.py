@@ -1,10 +1,12 @@
 from __future__ import annotations
 
 import contextlib
+import os
 from pathlib import Path
 
 import pytest
 
+from softkin.core.errors import DataError
 from softkin.core.files import read_json, replacing, sha256_of, write_json
 
 
@@ -23,6 +25,28 @@ def test_json_refuses_nan_and_keeps_the_old_file(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="JSON"):
         write_json(tmp_path / "a.json", float("nan"))
     assert read_json(tmp_path / "a.json") == 1
+
+
+def test_a_file_is_on_the_disk_before_it_takes_its_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    order: list[object] = []
+    monkeypatch.setattr(os, "fsync", lambda descriptor: order.append(os.path.isdir(f"/proc/self/fd/{descriptor}")))
+    replace = os.replace
+
+    def renamed(*paths: Path) -> None:
+        order.append("renamed")
+        replace(*paths)
+
+    monkeypatch.setattr(os, "replace", renamed)
+    write_json(tmp_path / "a.json", 1)
+    assert order == [False, "renamed", True]
+
+
+@pytest.mark.parametrize("text", ["", '{"a": [1,', "{}{}", '{"a": 1, "a": 2}'])
+def test_a_damaged_result_is_named_with_what_to_do(tmp_path: Path, text: str) -> None:
+    (tmp_path / "a.json").write_text(text)
+    with pytest.raises(DataError, match=r"a\.json: this result is damaged") as error:
+        read_json(tmp_path / "a.json")
+    assert "delete the file and run again" in str(error.value)
 
 
 def test_the_hash_knows_where_one_file_ends(tmp_path: Path) -> None:

@@ -33,6 +33,32 @@ def test_a_defect_keeps_its_traceback(tmp_path: Path) -> None:
     assert "Traceback" in (tmp_path / "job.log").read_text()
 
 
+def test_a_damaged_input_is_the_message_and_the_traceback_is_in_the_log(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    table = tmp_path / "table.parquet"
+    table.write_bytes(b"garbage")
+    with pytest.raises(SystemExit) as end, job(str(tmp_path / "job.log"), "fit", inputs=[str(table)]):
+        raise KeyError("m1_x")
+    assert end.value.code == 1
+    printed = capsys.readouterr().err
+    assert f"{table}: this result is damaged" in printed
+    assert "fix: delete the file and run again" in printed
+    assert "Traceback" not in printed
+    assert "KeyError: 'm1_x'" in (tmp_path / "job.log").read_text()
+
+
+def test_a_defect_with_sound_inputs_is_still_one(tmp_path: Path) -> None:
+    (tmp_path / "a.json").write_text("{}\n")
+    with pytest.raises(KeyError), job(str(tmp_path / "job.log"), "fit", inputs=[str(tmp_path / "a.json")]):
+        raise KeyError("m1_x")
+
+
+def test_an_interrupt_is_not_explained(tmp_path: Path) -> None:
+    with pytest.raises(KeyboardInterrupt), job(str(tmp_path / "job.log"), "fit", inputs=[str(tmp_path / "no.json")]):
+        raise KeyboardInterrupt
+
+
 def test_debug_goes_to_the_log_only(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     with job(str(tmp_path / "job.log"), "tune"):
         logging.getLogger("softkin").debug("trial 3")

@@ -8,7 +8,7 @@ import pytest
 
 from softkin.core.errors import DataError
 from softkin.core.files import read_json
-from softkin.core.manifest import MANIFEST, files_of_runs, renew_manifest, write_manifest
+from softkin.core.manifest import MANIFEST, files_of_runs, renew_manifest, with_listed, write_manifest
 from softkin.core.runs import Run
 
 START = time.time()
@@ -61,6 +61,20 @@ def test_it_is_deleted_where_a_file_is_missing(manifest: Path) -> None:
     renew_manifest(manifest)
     assert not manifest.exists()
     renew_manifest(manifest)  # nothing to do where there is none
+
+
+def test_it_is_deleted_where_it_is_damaged(manifest: Path) -> None:
+    manifest.write_text(manifest.read_text()[:30])
+    renew_manifest(manifest)
+    assert not manifest.exists()
+
+
+def test_it_lists_itself_and_the_files_that_it_holds(manifest: Path) -> None:
+    listed = list(with_listed([manifest, manifest.parent / "absent.csv"]))
+    assert listed[0] == manifest
+    assert listed[-1] == manifest.parent / "absent.csv"
+    assert len(listed) == 2 + len(read_json(manifest))
+    assert all(path.is_file() for path in listed[:-1])
 
 
 def test_it_is_written_anew_where_a_file_has_changed(manifest: Path) -> None:

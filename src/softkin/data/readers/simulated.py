@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from softkin.core.files import read_json
 from softkin.core.samples import Samples
 
 #: Keys of a recipe: all that decides a simulated pose.
@@ -21,5 +21,5 @@ def read(path: str | Path, *, dataset: str, source: Mapping[str, Any]) -> dict[s
     """
     from softkin.data.standins.simulating import simulate
 
-    recipe = json.loads(Path(path).read_text(encoding="utf-8"))
+    recipe = read_json(path)
     return simulate(recipe["robot"], n_rows=recipe["rows"], seed=recipe["seed"])

@@ -34,7 +34,8 @@ def draw(figures: Mapping[str, FigureSpec[Results]], results: Results, folder: P
         if frame.empty:
             logger.info("no figure %s: what it shows was not run, or too little of it", name)
             continue
-        frame.to_csv(folder / f"{name}.csv", index=False)
+        with replacing(folder / f"{name}.csv") as temporary:
+            frame.to_csv(temporary, index=False)
         with mpl.rc_context(SETTINGS):
             render(spec.plot(frame, results), folder / name)
         runs = frame[RUN_COLUMNS].drop_duplicates().to_dict("records")
