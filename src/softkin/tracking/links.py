@@ -28,6 +28,10 @@ def links(tracking_uri: str) -> dict[str, str]:
     for name, (title, key) in ACROSS.items():
         if name in experiments:
             found[title] = _link(experiments.pop(name), key)
+    if nights.HISTORY in experiments:
+        found["nights as curves"] = (
+            f"/#/experiments/{experiments.pop(nights.HISTORY)}/runs?workflowType=machine_learning"
+        )
     experiments.pop("Default", None)
     return found | {name: _link(number, saved_view.KEY) for name, number in sorted(experiments.items())}
 

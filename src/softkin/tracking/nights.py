@@ -27,6 +27,8 @@ logger = logging.getLogger("softkin")
 
 #: The experiment that holds a run for each campaign; the kind of these runs.
 EXPERIMENT, KIND = "campaigns", "night"
+#: The experiment in which the numbers of all nights are curves.
+HISTORY = "history"
 SUMMARY, ROWS = "summary.json", "summary_rows.parquet"
 #: Tag of a registered version: the campaign whose rows its successor is compared with.
 JUDGED_IN = "judged_in"
@@ -125,7 +127,23 @@ def log_night(client: MlflowClient, record: NightRecord) -> str:
         view = campaigns_view(["tags.`verdict`", "metrics.`duration_seconds`", "metrics.`jobs_run`", *columns])
         client.set_experiment_tag(experiment, CAMPAIGNS_TAG, view)
     client.set_experiment_tag(experiment, NOTE, "A run for each campaign. *Views*, at the top right, has *Nights*.")
+    if summary:
+        _go_on_with_history(client, campaign, metrics)
     return run_id
+
+
+def _go_on_with_history(client: MlflowClient, campaign: str, metrics: Sequence[Metric]) -> None:
+    """Log the numbers of a campaign as the next step of one run, in which a year of nights is a curve."""
+    experiment = experiment_of(client, HISTORY)
+    client.set_experiment_tag(experiment, NOTE, "A run for each name of a campaign; a step of its metrics is a night.")
+    found = find(client, experiment, kind=HISTORY, campaign=campaign)
+    tags = {"kind": HISTORY, "campaign": campaign}
+    run = found[0] if found else client.create_run(experiment, tags=tags, run_name=f"{campaign} · nights")
+    step = int(run.data.metrics.get("night", 0)) + 1
+    points = [Metric(one.key, one.value, one.timestamp, step) for one in metrics]
+    points.append(Metric("night", step, points[0].timestamp, step))
+    for start in range(0, len(points), BATCH):
+        client.log_batch(run.info.run_id, metrics=points[start : start + BATCH])
 
 
 def candidates(client: MlflowClient, datasets: Sequence[str]) -> list[Candidate]:

@@ -9,9 +9,9 @@ from softkin.tracking.store import client_of, experiment_of
 
 def test_each_experiment_has_a_link_to_its_runs_and_its_view(campaign: Campaign) -> None:
     client: Any = client_of(campaign.tracking_uri)
-    ids = {name: experiment_of(client, name) for name in ("finger", "arm", "champions", "campaigns")}
+    ids = {name: experiment_of(client, name) for name in ("finger", "arm", "champions", "campaigns", "history")}
     found = links(campaign.tracking_uri)
-    assert list(found) == ["campaigns", "calibrated models", "arm", "finger"]
+    assert list(found) == ["campaigns", "calibrated models", "nights as curves", "arm", "finger"]
     runs = "runs?workflowType=machine_learning&viewStateShareKey="
     assert found["finger"] == f"/#/experiments/{ids['finger']}/{runs}models_by_error"
     assert found["campaigns"] == f"/#/experiments/{ids['campaigns']}/{runs}nights"

@@ -74,6 +74,19 @@ def test_nights_are_kept_and_the_last_one_of_the_same_configuration_counts(clien
     assert last_night(client, summary("a", "unknown")) is None
 
 
+def test_nights_are_a_curve_in_one_run(client: Any, tmp_path: Path) -> None:
+    for started in (1, 2, 3):
+        logged(client, tmp_path, started=started)
+    logged(client, tmp_path, started=4, summary=summary("a", "weekly"))
+    logged(client, tmp_path, "failed", started=5)
+    runs = client.search_runs([client.get_experiment_by_name("history").experiment_id])
+    assert {run.info.run_name for run in runs} == {"nightly · nights", "weekly · nights"}
+    (nightly,) = [run for run in runs if run.data.tags["campaign"] == "nightly"]
+    curve = client.get_metric_history(nightly.info.run_id, "finger/test/rmse_mm")
+    assert [(point.step, point.value) for point in curve] == [(1, 1.5), (2, 1.5), (3, 1.5)]
+    assert nightly.data.metrics["night"] == 3
+
+
 def test_a_failed_night_is_marked_in_the_store(client: Any, tmp_path: Path) -> None:
     assert client.get_run(logged(client, tmp_path, "failed")).info.status == "FAILED"
 
