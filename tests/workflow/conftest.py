@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import subprocess
 import sys
+import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -16,6 +19,13 @@ from tests.conftest import HOUSE
 
 #: Of one run, with the other tests beside it.
 MAX_SECONDS = 580
+
+
+@cache
+def forked_snakemake() -> subprocess.Popen[str]:
+    """A process that answers command lines, see forked_snakemake.py; it ends with this one."""
+    command = [sys.executable, str(Path(__file__).with_name("forked_snakemake.py"))]
+    return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
 
 @dataclass(frozen=True)
@@ -62,12 +72,24 @@ class House:
             "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}",
         }
 
+    def looking(self, *options: str, more: Path | None = None) -> tuple[int, str]:
+        """Exit status and output of a command line that starts no job, in a process that need not import Snakemake."""
+        command = self.command(*options, more=more)
+        with tempfile.NamedTemporaryFile() as output:
+            request = {"arguments": command[3:], "environment": self.environment(), "folder": str(self.root)}
+            forked = forked_snakemake()
+            assert forked.stdin is not None
+            assert forked.stdout is not None
+            print(json.dumps(request | {"output": output.name}), file=forked.stdin, flush=True)
+            status = int(forked.stdout.readline())
+            return status, Path(output.name).read_text()
+
     def jobs(self, more: Path | None = None) -> list[tuple[str, str]]:
         """(rule, wildcards) of each job that a run would start now."""
-        done = self.snakemake("--dry-run", more=more)
-        assert done.returncode == 0, done.stdout + done.stderr
+        status, output = self.looking("--dry-run", more=more)
+        assert status == 0, output
         jobs, rule = [], ""
-        for line in (done.stdout + done.stderr).splitlines():
+        for line in output.splitlines():
             if line.startswith(("rule ", "localrule ")):
                 rule = line.split()[1].rstrip(":")
                 jobs.append((rule, ""))

@@ -1,0 +1,55 @@
+"""Snakemake, imported once and forked for each command line: a small dry run takes less time than these imports.
+
+    python tests/workflow/forked_snakemake.py
+
+Reads a JSON object a line, `arguments` (after `snakemake`), `environment`, `folder` to start in, and `output`, the file
+that gets all that is written; answers each by a line with the exit status. No module of softkin is imported before the
+fork: each command line finds the source that its environment names.
+"""
+
+from __future__ import annotations
+
+import importlib
+import json
+import os
+import sys
+from typing import Any
+
+#: What Snakemake imports when it starts, and later in a dry run.
+IMPORTED = ("snakemake.cli", "snakemake.report.html_reporter", "snakemake.storage", "nbformat", "numpy", "filelock")
+
+
+def run(arguments: list[str], environment: dict[str, str], folder: str, output: str) -> None:
+    """Run one command line in this process, which ends with it."""
+    with open(output, "wb") as file:
+        os.dup2(file.fileno(), 1)
+        os.dup2(file.fileno(), 2)
+    os.environ.clear()
+    os.environ.update(environment)
+    os.chdir(folder)
+    sys.path[:0] = environment["PYTHONPATH"].split(os.pathsep)
+    sys.argv = ["snakemake", *arguments]
+    sys.modules["snakemake.cli"].main(arguments)
+
+
+def exit_status(request: dict[str, Any]) -> int:
+    """That of a command line run in a fork of this process."""
+    child = os.fork()
+    if child:
+        return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+    status = 1
+    try:
+        run(**request)
+    except SystemExit as ended:
+        status = ended.code if isinstance(ended.code, int) else int(ended.code is not None)
+    finally:
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(status)
+
+
+if __name__ == "__main__":
+    for name in IMPORTED:
+        importlib.import_module(name)
+    for line in sys.stdin:
+        print(exit_status(json.loads(line)), flush=True)
