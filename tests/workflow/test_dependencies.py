@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import subprocess
 import sys
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 
+from softkin.cli.redo import UNFINISHED, redo_damaged
 from softkin.core.imported_code import CHOSEN_FROM, WITHOUT_EFFECT, file_of, imported_code, imported_modules
+from softkin.core.job_records import record_job, record_of
 from softkin.core.manifest import MANIFEST, write_manifest
 from tests.conftest import HOUSE
 from tests.workflow.conftest import House, copy_house
@@ -54,7 +58,7 @@ models: [{", ".join(MODELS)}]
 interval_methods: [qr, scp_mapie, scp_crepes, cv_plus, rolling_shells]
 """
 #: What follows from rules: the tables and what is made of them.
-TABLES = {"build_tables", "draw_campaign_figures", "build_report"}
+TABLES = {"build_tables", "draw_campaign_figures", "summarise", "build_report"}
 SCORED = {"score", "draw_figures", "track"} | TABLES
 CALIBRATED = {"calibrate"} | SCORED
 REFITTED = {"refit"} | CALIBRATED
@@ -115,9 +119,9 @@ def finished(tmp_path_factory: pytest.TempPathFactory, mirror: Path) -> Finished
     work, configuration = folder / "work", folder / "configuration.yaml"
     configuration.write_text(CONFIGURATION)
     house = House(folder / "house", work, mirror)
-    planned = house.snakemake("--dry-run", more=configuration)
-    assert planned.returncode == 0, planned.stdout + planned.stderr
-    for line in map(str.strip, planned.stdout.splitlines()):
+    status, planned = house.looking("--dry-run", more=configuration)
+    assert status == 0, planned
+    for line in map(str.strip, planned.splitlines()):
         kind, _, paths = line.partition(": ")
         made = [work / path for path in paths.split(", ") if kind in ("output", "benchmark")]
         for path in made:
@@ -128,7 +132,7 @@ def finished(tmp_path_factory: pytest.TempPathFactory, mirror: Path) -> Finished
                 path.touch()
         for path in made:
             if path.name == MANIFEST:
-                write_manifest(path, [file for file in made if file != path])
+                write_manifest(path, [file for file in made if file != path and path.parent in file.parents])
     recorded = house.snakemake(
         "--touch", "--forceall", more=configuration
     )  # the params of each job, the code among them
@@ -159,34 +163,26 @@ def test_an_edited_module_reruns_what_it_decides_and_nothing_else(module: str, f
         assert [wildcards for rule, wildcards in jobs if rule == "fit_model"] == ["dataset=finger, model=svr"]
 
 
-#: A file of SVR.
-FILE = "results/finger/svr/tuned/predictions.parquet"
-
-
-def test_what_a_changed_file_decides_is_made_again(finished: Finished) -> None:
-    """By content, not by time; and the model is not fitted again."""
-    file = finished.house.work / FILE
-    manifest = file.parents[1] / MANIFEST
-    before = manifest.read_bytes()
-    os.utime(file)
-    assert finished.house.jobs(finished.configuration) == []
-    file.write_text("changed")
+@pytest.mark.parametrize("change", [Path.unlink, lambda file: file.write_text("changed")], ids=["gone", "changed"])
+def test_a_file_that_is_not_as_it_was_written_is_made_anew_by_its_model_alone(
+    change: Callable[[Path], object], finished: Finished, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """By content, not by time; as a run does it when it starts."""
+    work = finished.house.work
+    monkeypatch.chdir(work)
+    folder = Path("results/finger/svr")
+    file, log = folder / "tuned" / "predictions.parquet", "results/logs/fit_model/finger/svr.log"
+    record_job(log, [path for path in folder.rglob("*") if path.is_file()])
     try:
-        assert {rule for rule, _ in finished.house.jobs(finished.configuration)} == REFITTED
-    finally:
-        file.write_text("")
-        manifest.write_bytes(before)
-
-
-def test_a_missing_file_is_made_again_for_what_needs_it_and_by_its_model_alone(finished: Finished) -> None:
-    file = finished.house.work / FILE
-    manifest = file.parents[1] / MANIFEST
-    before = manifest.read_bytes()
-    file.unlink()
-    try:
-        jobs = finished.jobs_after_editing("evaluation/score_points.py")
+        os.utime(file)
+        assert list(redo_damaged(only_say=False)) == []
+        assert finished.house.jobs(finished.configuration) == []
+        change(file)
+        assert len(list(redo_damaged(only_say=False))) == 1
+        jobs = finished.house.jobs(finished.configuration)
         assert {rule for rule, _ in jobs} == FITTED
         assert [wildcards for rule, wildcards in jobs if rule == "fit_model"] == ["dataset=finger, model=svr"]
     finally:
-        file.touch()
-        manifest.write_bytes(before)
+        file.write_text("")
+        record_of(log).unlink()
+        shutil.rmtree(work / UNFINISHED)

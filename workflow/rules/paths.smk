@@ -1,5 +1,5 @@
 # Names of runs and paths of files: what the configuration spans, and what more than one stage needs.
-from softkin.core.manifest import MANIFEST, renew_manifest
+from softkin.core.manifest import MANIFEST
 from softkin.core.runs import OUTER, PAPER, PRESETS, SEARCHED, TUNED
 
 HEADLINE = "results/tables/headline.txt"
@@ -159,11 +159,3 @@ def final_output():
         ),
         *expand("results/{dataset}/mlflow_runs.json", dataset=config["datasets"]),
     ]
-
-
-# A file that is missing or has changed since it was written counts as it would if a rule declared it.
-if workflow.is_main_process:
-    for manifest in of_every_dataset(
-        [*MODEL_MANIFESTS, *QUANTILE_MANIFESTS, INTERVAL_MANIFEST]
-    ):
-        renew_manifest(manifest)

@@ -1,7 +1,8 @@
-"""Manifests: one small file that stands for all files of a job, as long as each is there and as it was.
+"""Manifests: one small file that stands for all files of a job, and changes exactly when one of them does.
 
 Snakemake spends a quarter of a millisecond on each file that a rule declares as an input, and a dataset's models have
-150 files that six rules read. So these rules declare the manifests, and find the files beside them.
+150 files that six rules read. So these rules declare the manifests, and find the files beside them. Files that are gone
+or were changed since are noticed by the records of their jobs (`core/job_records.py`).
 """
 
 from __future__ import annotations
@@ -25,23 +26,6 @@ def write_manifest(manifest: str | Path, files: Iterable[str | Path]) -> None:
     folder = Path(manifest).parent
     hashes = {Path(file).relative_to(folder).as_posix(): sha256_of([file]) for file in files}
     write_json(manifest, dict(sorted(hashes.items())))
-
-
-def renew_manifest(manifest: str | Path) -> None:
-    """Make a manifest true again: delete it where a file is missing or it is damaged, so that its job runs again; write
-    it anew where the content of a file has changed, so that what reads it runs again. No manifest, or a true one, is
-    left alone.
-    """
-    path = Path(manifest)
-    try:
-        written = path.stat().st_mtime_ns
-        hashes = {path.parent / name: known for name, known in read_json(path).items()}
-        newer = [file for file in hashes if file.stat().st_mtime_ns > written]
-    except (FileNotFoundError, DataError):
-        path.unlink(missing_ok=True)
-        return
-    if any(sha256_of([file]) != hashes[file] for file in newer):
-        write_manifest(path, hashes)
 
 
 def with_listed(paths: Iterable[str | os.PathLike[str]]) -> Iterator[Path]:
