@@ -19,6 +19,8 @@ from tests.conftest import HOUSE
 
 #: Of one run, with the other tests beside it.
 MAX_SECONDS = 580
+#: Nothing listens there.
+NOWHERE = "http://127.0.0.1:9/FINGER.json"
 
 
 @cache

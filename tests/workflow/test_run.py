@@ -31,7 +31,7 @@ from softkin.uncertainty.calibration_data import (
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from softkin.uncertainty.labelled import LABELLED_METHODS
 from tests.conftest import HOUSE
-from tests.workflow.conftest import House
+from tests.workflow.conftest import NOWHERE, House
 
 pytestmark = pytest.mark.timeout(600)
 DATASETS = ("elastica_2023_09", "finger")
@@ -252,7 +252,7 @@ def test_bad_data_stop_with_a_message_and_lose_nothing(house: House, tmp_path: P
     (broken / "FINGER.json").write_bytes((broken / "FINGER.json").read_bytes()[:-100])
     bad = House(house.root, tmp_path, broken)
     small = ["models=[lr]", "presets=[paper]", "interval_methods=[scp_mapie]", "regions=[]"]
-    options = ["--config", *small, "sources={finger: {urls: []}}"]
+    options = ["--config", *small, f"sources={{finger: {{urls: ['{NOWHERE}']}}}}"]
     done = bad.snakemake(*(f"results/{name}/calibrated_model.joblib" for name in DATASETS), *options)
     output = done.stdout + done.stderr
     assert done.returncode != 0

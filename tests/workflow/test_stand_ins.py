@@ -10,7 +10,7 @@ import yaml
 
 from softkin.core.files import read_json
 from softkin.core.samples import SUBSETS
-from tests.workflow.conftest import House
+from tests.workflow.conftest import NOWHERE, House
 
 pytestmark = pytest.mark.timeout(600)
 
@@ -19,7 +19,7 @@ def test_a_stand_in_takes_the_place_of_unreachable_data_until_they_return(house:
     """A stand-in has another name, a title that says so, and a warning before and after the run."""
     (tmp_path / "mirror").mkdir()
     override = yaml.safe_load((house.mirror / "override.yaml").read_text())
-    override["sources"]["finger"]["urls"] = []
+    override["sources"]["finger"]["urls"] = [NOWHERE]
     override["datasets"] = ["finger"]
     (tmp_path / "mirror" / "override.yaml").write_text(yaml.safe_dump(override))
     alone = House(house.root, tmp_path, tmp_path / "mirror")
