@@ -13,19 +13,24 @@ NOISE_MM = 0.1
 
 
 def recorded_arm(
-    n_rows: int, *, backlash: float = 0.0, zeros_mm: Sequence[float] = (0.0,), seed: int = 0, noise: float = NOISE_MM
+    n_rows: int,
+    *,
+    backlash: float = 0.0,
+    zeros_mm: Sequence[float] = (0.0,),
+    seed: int = 0,
+    commands: Array | None = None,
 ) -> Samples:
-    """A smooth arm of two commands from -1 to 1, sent in jumps.
+    """A smooth arm of two commands from -1 to 1, sent in jumps, or as given.
 
     `backlash` is the half-width of the play of its drives, in units of the range of commands; each of `zeros_mm` is a
     session of equal length, shifted by so much along x.
     """
     rng = np.random.default_rng(seed)
-    commands = rng.uniform(-1, 1, (n_rows, 2))
+    commands = rng.uniform(-1, 1, (n_rows, 2)) if commands is None else commands
     sessions = 1 + np.arange(n_rows) * len(zeros_mm) // n_rows
     parts = [commands[sessions == number] for number in np.unique(sessions)]
     moved = np.vstack([play(part, 2 * backlash, np.zeros(2)) if backlash else part for part in parts])
-    positions = bent(moved) + noise * rng.standard_normal((n_rows, 3))
+    positions = bent(moved) + NOISE_MM * rng.standard_normal((n_rows, 3))
     positions[:, 0] += np.asarray(zeros_mm)[sessions - 1]
     recording = CommandMemory.of(commands).recorded(commands, np.arange(1, n_rows + 1), sessions)
     return Samples(commands, positions, recording)

@@ -14,6 +14,7 @@ from softkin.core.samples import EXTRAPOLATION, SUBSETS, TEST, TRAIN, VALIDATION
 from softkin.data.audit import CHECKS
 from softkin.data.audit.findings import LEAK, MAX_ROWS_LISTED, NOTE, SEVERITIES, CheckResult, Finding
 from tests.contract import laws
+from tests.recorded_robot import recorded_arm
 from tests.unit.data.audit.clean_robot import clean_robot
 
 Robot = dict[str, Samples]
@@ -74,6 +75,11 @@ def of_few_calibration_rows() -> Robot:
     return robot | {VALIDATION: Samples(robot[VALIDATION].commands[:5], robot[VALIDATION].positions[:5])}
 
 
+def that_remembers() -> Robot:
+    rows = recorded_arm(300, backlash=0.05)
+    return {subset: rows.take(np.arange(place, 300, 4)) for place, subset in enumerate(SUBSETS)}
+
+
 FAULTS = (
     with_copies,
     of_few_commands,
@@ -81,6 +87,7 @@ FAULTS = (
     that_hardly_moves,
     with_failed_poses,
     of_shifted_subsets,
+    that_remembers,
 )
 
 

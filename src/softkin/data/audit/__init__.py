@@ -13,6 +13,7 @@ from softkin.data.audit import (
     few_calibration_rows,
     few_commands,
     gross_outliers,
+    memory,
     near_copies,
     stuck_poses,
     subset_shift,
@@ -31,4 +32,5 @@ CHECKS: dict[str, Callable[[Mapping[str, Samples]], CheckResult]] = {
     "gross_outliers": gross_outliers.check,
     "extrapolation_support": extrapolation_support.check,
     "subset_shift": subset_shift.check,
+    "memory": memory.check,
 }

@@ -43,6 +43,7 @@ def page(card: Mapping[str, Any]) -> str:
         _shift(checks["extrapolation_support"], checks["subset_shift"]),
         "## How smooth the robot is",
         _regularity(checks["gross_outliers"]),
+        *_in_time(checks["memory"]),
     ]
     return "\n\n".join(parts) + "\n"
 
@@ -159,6 +160,27 @@ def _regularity(outliers: Mapping[str, Any]) -> str:
         f"a typical residual of {outliers['typical_residual_mm']:.2g} mm. It only finds outliers and is no point "
         "model. All rows were compared with it."
     )
+
+
+def _in_time(memory: Mapping[str, Any]) -> list[str]:
+    """What the recording says of time; nothing where there is none."""
+    if "not_measured" in memory:
+        return []
+    rows = []
+    for name, what in (
+        ("remembers", "memory of earlier commands (standard deviation)"),
+        ("sessions_differ", "widest difference of zeros between sessions"),
+        ("drifts", "drift within a session"),
+    ):
+        measured = memory[name]
+        if "not_measured" not in measured:
+            effects = ", ".join(f"{column} {value:.2g}" for column, value in measured["effect_mm"].items())
+            rows.append([what, effects, f"{measured['p_value']:.3g}"])
+    text = (
+        f"Residuals of a polynomial of degree {memory['degree_of_fit']} by commands alone, in the order of the "
+        f"recording: {memory['rows_looked_at']} rows, {memory['permutations']} permutations.\n\n"
+    )
+    return ["## How it lives in time", text + _table(["effect", "size, mm", "p-value"], rows)]
 
 
 def _table(header: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
