@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -40,3 +41,16 @@ def bent(commands: Array) -> Array:
     """Poses (n_rows, 3) in mm of the arm without memory."""
     first, second = commands.T
     return np.column_stack([40 * np.sin(first), 40 * np.sin(second), 100 - 10 * first**2 - 8 * second**2])
+
+
+def with_recording(subsets: dict[str, Samples], n_sessions: int = 2) -> dict[str, Samples]:
+    """The same rows, as if recorded in a random order in sessions of equal length."""
+    commands = np.concatenate([rows.commands for rows in subsets.values()])
+    order = np.random.default_rng(0).permutation(len(commands)) + 1
+    recording = CommandMemory.of(commands).recorded(commands, order, 1 + (order - 1) * n_sessions // len(order))
+    ends = np.cumsum([len(rows) for rows in subsets.values()])[:-1]
+    places = np.split(np.arange(len(commands)), ends)
+    return {
+        name: replace(rows, recording=recording.take(place))
+        for (name, rows), place in zip(subsets.items(), places, strict=True)
+    }

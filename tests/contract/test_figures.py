@@ -24,6 +24,7 @@ from softkin.reporting.figures.spec import CampaignResults, DatasetResults, Figu
 from softkin.reporting.figures.style import PAGE
 from tests.conftest import four_subsets
 from tests.contract import laws
+from tests.recorded_robot import with_recording
 from tests.unit.reporting.figures.conftest import results_in, write_results
 
 Results = DatasetResults | CampaignResults
@@ -33,7 +34,7 @@ Spec = FigureSpec[Any]
 @pytest.fixture(scope="module")
 def results(tmp_path_factory: pytest.TempPathFactory) -> DatasetResults:
     folder = tmp_path_factory.mktemp("results")
-    write_table(to_table(four_subsets(dict.fromkeys(SUBSETS, 40))), folder / "table.parquet")
+    write_table(to_table(with_recording(four_subsets(dict.fromkeys(SUBSETS, 40)))), folder / "table.parquet")
     write_results(folder)
     return results_in(folder)
 
