@@ -127,6 +127,12 @@ def order_table(wildcards):
     return [str(folder / name) if "urls" in entry else name]
 
 
+def is_recorded(entry):
+    """Whether a dataset's entry says when its rows were recorded; of a stand-in, whether it is recorded in sessions."""
+    of_robot = "robot" in entry and bool(STANDINS[entry["robot"]].sessions)
+    return of_robot or "order" in entry or "session" in entry
+
+
 def robot(wildcards):
     """The params of studies and fits on a robot: its base, and whether command norms are standardised."""
     entry = source(wildcards)

@@ -2,6 +2,8 @@
 from softkin.core.manifest import MANIFEST
 from softkin.core.runs import OUTER, PAPER, PRESETS, SEARCHED, TUNED
 
+# The datasets that know when their rows were recorded.
+RECORDED = [name for name in config["datasets"] if is_recorded(config["sources"][name])]
 HEADLINE = "results/tables/headline.txt"
 REPORT = "results/report.html"
 # To be pasted into a paper.
@@ -22,6 +24,7 @@ TABLES = [
     "published_comparison.csv",
     "published_intervals.csv",
     *(["published_columns.csv"] if TUNED in config["presets"] else []),
+    *(["recorded.csv", "claims.csv"] if RECORDED else []),
     *(
         ["selection.csv", "searched_runs.csv"]
         if set(SEARCHED) & set(config["presets"])

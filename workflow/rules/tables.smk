@@ -13,6 +13,7 @@ rule build_tables:
         description=of_every_dataset("results/{dataset}/dataset.json"),
         data_card=of_every_dataset("results/{dataset}/data_card.json"),
         models=of_every_dataset(MODEL_MANIFESTS),
+        recorded=expand("results/{dataset}/recorded.csv", dataset=RECORDED),
     output:
         headline=report(
             HEADLINE,

@@ -28,4 +28,7 @@ def timed_jobs():
             jobs.append(
                 ([stage, dataset, ""], f"results/benchmarks/{stage}/{dataset}.tsv", [])
             )
+    for dataset in RECORDED:
+        benchmark = f"results/benchmarks/score_recorded/{dataset}.tsv"
+        jobs.append((["score_recorded", dataset, ""], benchmark, []))
     return jobs

@@ -28,6 +28,7 @@ with job(snakemake.log[0], "build tables", snakemake.output, snakemake.input):
         sources=params.sources,
         parameters=parameters,
         objective=params.objective,
+        recorded=files.recorded,
         published=PublishedFiles(
             *(published / f"{name}.csv" for name in ("point_metrics", "subsets", "interval_metrics"))
         ),

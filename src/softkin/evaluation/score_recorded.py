@@ -70,20 +70,20 @@ class Part:
     spread: Array | None
 
 
-def score_recorded(table: str | Path, *, dataset: str, run: RecordedRun, output: str | Path) -> None:
-    """Write the scores of a run in time (CSV, `COLUMNS`), mm; without a recording the columns alone.
+def score_recorded(table: str | Path, *, dataset: str, run: RecordedRun | None, output: str | Path) -> None:
+    """Write the scores of a run in time (CSV, `COLUMNS`), mm; without a recording or a run the columns alone.
 
     Coverage, width and Winkler score are means over moving coordinates. Of `N_DRAWS` draws of labelled poses, means.
 
     Parameters:
         table: path of the tidy table (Parquet).
         dataset: its name.
-        run: the run that is scored.
+        run: the run that is scored; None where none is deployed.
         output: path of the scores.
     """
     samples = {subset: read_subset(table, subset) for subset in SUBSETS}
     rows: list[dict[str, Any]] = []
-    if samples[TRAIN].recording is not None:
+    if run is not None and samples[TRAIN].recording is not None:
         settings = {str(memory["memory"]): memory for memory in (STATIC, run.settings.memory or STATIC)}
         for memory, told in settings.items():
             of_memory = replace(run, settings=replace(run.settings, memory=told))

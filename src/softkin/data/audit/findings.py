@@ -21,6 +21,9 @@ LEAK_CONSEQUENCES = {
     EXTRAPOLATION: "The score on these rows is training error and says nothing about extrapolation.",
 }
 
+#: Code of the finding that a subset's scores are optimistic, since rows next to its own in time stand in `train`.
+NEIGHBOURS_IN_TIME = "neighbours_in_time"
+
 #: A finding lists at most this many rows of a subset; it always counts all.
 MAX_ROWS_LISTED = 100
 
@@ -89,11 +92,12 @@ def leaking_subsets(card: Mapping[str, Any]) -> set[str]:
 
 
 def leak_notes(card: Mapping[str, Any]) -> dict[str, str]:
-    """Subset -> the note on its leaks, by a data card."""
+    """Subset -> the note on its leaks, and on neighbours in time that stand in `train`, by a data card."""
     notes: dict[str, str] = {}
     for finding in card["findings"]:
-        for subset in finding["subsets"] if finding["severity"] == LEAK else ():
-            note = f"LEAK: {finding['sentence']} {finding['consequence']}"
+        is_leak, is_optimistic = finding["severity"] == LEAK, finding.get("code") == NEIGHBOURS_IN_TIME
+        for subset in finding["subsets"] if is_leak or is_optimistic else ():
+            note = f"{'LEAK: ' * is_leak}{finding['sentence']} {finding['consequence']}"
             notes[subset] = f"{notes.get(subset, '')} {note}".strip()
     return notes
 

@@ -17,7 +17,7 @@ from sklearn.neighbors import NearestNeighbors
 from softkin.core.rows import command_scale
 from softkin.core.samples import TEST, TRAIN, VALIDATION, Array, Samples
 from softkin.core.time_residuals import TimeResiduals, lag_one, time_residuals
-from softkin.data.audit.findings import WARNING, CheckResult, Finding
+from softkin.data.audit.findings import NEIGHBOURS_IN_TIME, WARNING, CheckResult, Finding
 
 N_PERMUTATIONS, ENOUGH, CHANCE = 999, 20, 0.002
 #: Effects below this share of the residuals' scatter are no finding: correlation with the neighbour in time, or share
@@ -239,7 +239,7 @@ def _neighbours(samples: Mapping[str, Samples]) -> list[Finding]:
         if beside.mean() > 0.5:
             findings.append(
                 Finding(
-                    "neighbours_in_time",
+                    NEIGHBOURS_IN_TIME,
                     WARNING,
                     (subset,),
                     f"{OPTIMISTIC}, beside {beside.mean():.0%} of the rows of {subset}.",

@@ -24,6 +24,7 @@ from softkin.reporting.page.images import Folder, albums
 from softkin.reporting.page.jobs import Job, duration, measured, slowest_grid
 from softkin.reporting.page.marks import Marks, kinds
 from softkin.reporting.page.provenance import data_grid, what_was_run
+from softkin.reporting.page.recorded import claims_grid, recorded_grid
 from softkin.reporting.page.scores import choice_grid, interval_grid, point_grid
 from softkin.reporting.tables.published import summary
 from softkin.reporting.titles import Titles
@@ -125,6 +126,8 @@ def _scores(frames: Mapping[str, pd.DataFrame], titles: Titles, marks: Marks) ->
         grids.append(searched_grid(frames["searched_runs"], titles, marks, choices))
     if len(frames["target_spaces"]):
         grids.append(spaces_grid(frames["target_spaces"], titles, marks))
+    if len(frames.get("recorded", ())):
+        grids.append(recorded_grid(frames["recorded"], titles, marks))
     return [*grids, extrapolation_grid(frames["extrapolation_intervals"], titles, level, marks, choices)]
 
 
@@ -137,6 +140,8 @@ def _published(frames: Mapping[str, pd.DataFrame], titles: Titles, marks: Marks)
         grids.append(published.cells_grid(frames["published_comparison"], titles, marks))
     if len(frames["published_intervals"]):
         grids.append(published.intervals_grid(frames["published_intervals"], titles, marks))
+    if len(frames.get("claims", ())):
+        grids.append(claims_grid(frames["claims"]))
     return grids
 
 

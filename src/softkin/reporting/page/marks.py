@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from softkin.core.samples import SUBSETS, VALIDATION
-from softkin.data.audit.findings import LEAK
+from softkin.data.audit.findings import LEAK, NEIGHBOURS_IN_TIME
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +25,8 @@ STANDIN = "a stand-in, simulated by softkin in place of the published data: its 
 class Marks:
     """The marks of every dataset and subset.
 
-    A finding of severity `leak` in a data card marks its subsets as a `leak`; `notes` of an entry in
+    A finding of severity `leak` in a data card marks its subsets as a `leak`, one of neighbours in time that stand in
+    `train` as `optimistic`; `notes` of an entry in
     config/datasets.yaml stand with it, or are a `caution` on their subset; `is_cut` and the origin of dataset.json mark
     every subset.
     """
@@ -45,6 +46,11 @@ class Marks:
                 text = " ".join([*leaks, notes.get(subset, "")]).strip()
                 kind = "leak" if leaks else "caution"
                 marks = [Mark(kind, f"{dataset}, {subset}: {text}")] * bool(text)
+                marks += [
+                    Mark("optimistic", f"{dataset}, {subset}: {f['sentence']} {f['consequence']}")
+                    for f in cards[dataset]["findings"]
+                    if f.get("code") == NEIGHBOURS_IN_TIME and subset in f["subsets"]
+                ]
                 marks += [Mark("rows left out", f"{dataset}: {CUT}.")] * bool(description["is_cut"])
                 marks += [Mark("stand-in", f"{dataset}: {STANDIN}.")] * (description.get("origin") == "stand-in")
                 self._marks[dataset, subset] = marks

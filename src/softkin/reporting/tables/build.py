@@ -9,6 +9,7 @@ from softkin.core.escaping import csv_frame, markdown_text, one_line
 from softkin.core.files import replacing, write_text
 from softkin.core.runs import OUTER, PAPER, TUNED
 from softkin.core.samples import TEST
+from softkin.reporting.tables.claims import with_memory
 from softkin.reporting.tables.frames import Tables
 from softkin.reporting.tables.headline import headline
 from softkin.reporting.tables.interval_layout import interval_table
@@ -76,6 +77,7 @@ def _papers_tables(tables: Tables, titles: Titles) -> list[PaperTable]:
             for subset, title in SUBSET_TITLES.items()
             if (dataset, subset) in tables.notes
         ]
+        notes += with_memory(dataset, tables.sources, tables.frames.get("recorded"))
         table = comparison_table(
             entry.get("paper_table"),
             dataset,

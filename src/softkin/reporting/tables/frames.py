@@ -12,6 +12,7 @@ import pandas as pd
 from softkin.core.files import read_json
 from softkin.core.runs import TUNED
 from softkin.data.audit.findings import leak_notes, leaking_subsets
+from softkin.reporting.tables.claims import claims
 from softkin.reporting.tables.interval_choice import interval_choice
 from softkin.reporting.tables.leaks import marked
 from softkin.reporting.tables.paper_layout import SUBSET_TITLES
@@ -73,9 +74,10 @@ def read_tables(
     parameters: Mapping[tuple[str, str, str], str | Path],
     objective: str,
     published: PublishedFiles,
+    recorded: Sequence[str | Path] = (),
 ) -> Tables:
     """The tables of a run. There is no published_columns without tuned models, and no selection and searched_runs where
-    nothing was searched.
+    nothing was searched; recorded and claims where a dataset is recorded.
 
     Parameters:
         datasets: dataset -> files, in the order of the configuration.
@@ -83,6 +85,7 @@ def read_tables(
         parameters: (dataset, model, preset) -> file of best parameters; empty where nothing was searched.
         objective: what the deployed models are chosen for.
         published: what the paper printed.
+        recorded: files of scores in time, of the recorded datasets.
     """
     files = list(datasets.values())
     descriptions = [read_json(paths.description) for paths in files]
@@ -113,6 +116,9 @@ def read_tables(
     if parameters:
         searched = searched_runs(parameters)
         frames |= {"selection": selection(searched, objective), "searched_runs": runs_with_errors(searched, point)}
+    if recorded:
+        frames["recorded"] = marked(_concatenated(recorded), leaks)
+        frames["claims"] = claims(frames["recorded"], descriptions, cards)
     return Tables(frames, sources, descriptions, cards, notes, pd.read_csv(published.subsets))
 
 

@@ -7,6 +7,7 @@ import numpy as np
 from softkin.data.audit.findings import (
     LEAK,
     MAX_ROWS_LISTED,
+    NEIGHBOURS_IN_TIME,
     NOTE,
     WARNING,
     Finding,
@@ -64,3 +65,10 @@ def test_the_notes_of_a_card_are_those_of_its_leaks_by_subset() -> None:
         "validation": second,
     }
     assert leak_notes({"findings": []}) == {}
+
+
+def test_neighbours_in_time_are_noted_and_no_leak() -> None:
+    finding = {"code": NEIGHBOURS_IN_TIME, "severity": "warning", "subsets": ["test"]}
+    card = {"findings": [finding | {"sentence": "optimistic.", "consequence": "See."}]}
+    assert leak_notes(card) == {"test": "optimistic. See."}
+    assert leaking_subsets(card) == set()

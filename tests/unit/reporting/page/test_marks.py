@@ -44,3 +44,9 @@ def test_merging_keeps_each_mark_once_in_order() -> None:
     one, two = Mark("leak", "x"), Mark("leak", "y")
     assert merged([[one], [two, one]]) == (one, two)
     assert kinds([one, two]) == ["leak"]
+
+
+def test_neighbours_in_time_make_a_subset_optimistic() -> None:
+    finding = WARNING | {"code": "neighbours_in_time", "sentence": "optimistic: beside train.", "consequence": "See."}
+    assert marks(finding).of("arm", "test") == (Mark("optimistic", "arm, test: optimistic: beside train. See."),)
+    assert marks(finding).of("arm", "train") == ()

@@ -1,0 +1,55 @@
+"""The tables of robots in time: scores from session to session, and claims of the paper with their verdicts."""
+
+from __future__ import annotations
+
+import pandas as pd
+
+from softkin.core.samples import SUBSETS
+from softkin.reporting.page.grid import Cell, Column, Grid, filtered_columns, number, number_columns, share
+from softkin.reporting.page.marks import Marks
+from softkin.reporting.tables.claims import HOLDS
+from softkin.reporting.titles import Titles
+
+#: What the splits are called.
+SPLITS = {"published": "as published", "next_session": "next session", "later": "later"}
+
+
+def recorded_grid(recorded: pd.DataFrame, titles: Titles, marks: Marks) -> Grid:
+    """One row per robot, split, rows, memory, kind of interval and number of labelled poses."""
+    rows = [
+        [
+            Cell(row.dataset),
+            Cell(SPLITS[row.split]),
+            Cell(row.subset, marks.of(row.dataset, row.subset) if row.subset in SUBSETS else ()),
+            *(Cell(titles.run(row.model, row.preset)), Cell(row.memory), Cell(row.method)),
+            Cell(str(row.n_recalibration_poses)),
+            *(number(row.rmse_mm), number(row.mae_mm), share(row.coverage)),
+            *(number(row.mean_width_mm), number(row.winkler_mm)),
+        ]
+        for row in recorded.itertuples()
+    ]
+    sentence = (
+        "The deployed run of each robot whose recording order is known, with what it is told of earlier commands and "
+        "with the command alone (none): on the published split, whose rows are neighbours in time; fitted on some "
+        "sessions and scored on the next; and fitted on the first 80 % in time. Recalibrated means that so many "
+        "labelled poses of the new session shifted its zero, drawn 200 times, or its first ones."
+    )
+    shown = [
+        *filtered_columns("Robot", "Split", "Rows", "Run", "Memory", "Interval", "Labelled poses"),
+        *number_columns("RMSE, mm", "MAE, mm", "Coverage", "Width, mm", "Winkler, mm"),
+    ]
+    return Grid("recorded", "In time", sentence, shown, rows, "tables/recorded.csv")
+
+
+def claims_grid(claims: pd.DataFrame) -> Grid:
+    """One row per claim and dataset."""
+    rows = [
+        [
+            *(Cell(row.claim), Cell(row.dataset)),
+            Cell(row.verdict, verdict="reproduced" if row.verdict == HOLDS else "worse"),
+            Cell(row.numbers),
+        ]
+        for row in claims.itertuples()
+    ]
+    shown = [Column("Claim", is_wide=True), Column("Robot"), Column("Verdict"), Column("Numbers", is_wide=True)]
+    return Grid("claims", "Claims", "What the paper says, and what this run finds.", shown, rows, "tables/claims.csv")
