@@ -37,6 +37,8 @@ def widened(
         return bounds
     n_sessions = len(estimator.sessions_)
     unseen = ~np.isin(estimator.inputs(inputs)[:, -1], estimator.sessions_)
+    if not unseen.any():
+        return bounds
     quantiles = t.ppf((1 + np.asarray(confidence_levels)) / 2, n_sessions - 1)
     zero = quantiles[:, None, None] * spread * np.sqrt(1 + 1 / n_sessions) * unseen[:, None]
     sides = bounds - predicted[..., None]
