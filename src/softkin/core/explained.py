@@ -8,7 +8,7 @@ from collections.abc import Iterable
 
 from softkin.core.damage import first_damage
 from softkin.core.errors import DataError, SoftkinError, StoreError
-from softkin.core.manifest import with_listed
+from softkin.core.files import with_listed
 
 _STORE = (
     "the MLflow store",

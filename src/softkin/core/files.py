@@ -13,6 +13,10 @@ from typing import Any
 from softkin.core.damage import damaged
 from softkin.core.strict_json import NotStrictJson, parse_json
 
+#: The name of a file that stands for others: in the folder of a model, whose presets have a folder each, and in that of
+#: intervals (`core.manifest`).
+MANIFEST = "manifest.json"
+
 
 @contextmanager
 def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
@@ -77,3 +81,11 @@ def sha256_of(paths: Iterable[str | Path]) -> str:
         digest.update(f"{path.name}\0{len(content)}\0".encode())
         digest.update(content)
     return digest.hexdigest()
+
+
+def with_listed(paths: Iterable[str | os.PathLike[str]]) -> Iterator[Path]:
+    """The paths, each manifest among them followed by the files that it holds."""
+    for path in map(Path, paths):
+        yield path
+        if path.name == MANIFEST and path.is_file():
+            yield from (path.parent / name for name in read_json(path))

@@ -20,11 +20,14 @@ WITHOUT_EFFECT = {
     "softkin": "names the public face and the version",
     "softkin.core.clocks": "what a job used",
     "softkin.core.credentials": "keeps credentials out of what is shown",
+    "softkin.core.damage": "what is said of a file that is cut off or garbage",
     "softkin.core.durations": "words of the log",
     "softkin.core.errors": "what is said when there is no result",
+    "softkin.core.explained": "what is said of errors of libraries",
     "softkin.core.files": "how a file is put in place, whatever it holds",
     "softkin.core.job_records": "notices what was not written by softkin",
     "softkin.core.job": "log and stopwatch of a job",
+    "softkin.core.strict_json": "refuses what is no JSON, and changes nothing",
     "softkin.core.urls": "what of a URL is shown",
 }
 #: Modules that a rule uses only where the configuration or a wildcard names them: registries, whose named entries are

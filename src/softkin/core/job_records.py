@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from softkin.core.errors import ResultError
+from softkin.core.errors import DataError, ResultError
 from softkin.core.files import file_sha256, read_json, write_json
 
 FOLDER = "manifest"
@@ -128,7 +128,7 @@ def read_record(record: Path) -> dict[str, Any] | None:
         is_record = isinstance(content["job"], str) and all(
             {"output", "sha256", "bytes", "mtime_ns"} <= set(entry) for entry in entries
         )
-    except (OSError, ValueError, TypeError, KeyError, AttributeError):
+    except (DataError, OSError, ValueError, TypeError, KeyError, AttributeError):
         return None
     return content if is_record else None
 

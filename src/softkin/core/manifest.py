@@ -7,18 +7,17 @@ or were changed since are noticed by the records of their jobs (`core/job_record
 
 from __future__ import annotations
 
-import os
-from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TypeVar
 
 from softkin.core.errors import DataError
-from softkin.core.files import read_json, sha256_of, write_json
+from softkin.core.files import MANIFEST, read_json, sha256_of, write_json
 from softkin.core.runs import Run
 
+__all__ = ["MANIFEST", "files_of", "files_of_runs", "write_manifest"]
+
 Name = TypeVar("Name", bound=Hashable)
-#: Its name: in the folder of a model, whose presets have a folder each, and in that of intervals.
-MANIFEST = "manifest.json"
 
 
 def write_manifest(manifest: str | Path, files: Iterable[str | Path]) -> None:
@@ -26,14 +25,6 @@ def write_manifest(manifest: str | Path, files: Iterable[str | Path]) -> None:
     folder = Path(manifest).parent
     hashes = {Path(file).relative_to(folder).as_posix(): sha256_of([file]) for file in files}
     write_json(manifest, dict(sorted(hashes.items())))
-
-
-def with_listed(paths: Iterable[str | os.PathLike[str]]) -> Iterator[Path]:
-    """The paths, each manifest among them followed by the files that it holds."""
-    for path in map(Path, paths):
-        yield path
-        if path.name == MANIFEST and path.is_file():
-            yield from (path.parent / name for name in read_json(path))
 
 
 def files_of(manifest: str | Path, names: Mapping[Name, str]) -> dict[Name, Path]:

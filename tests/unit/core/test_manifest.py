@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from softkin.core.errors import DataError
-from softkin.core.files import read_json
-from softkin.core.manifest import MANIFEST, files_of_runs, with_listed, write_manifest
+from softkin.core.files import read_json, with_listed
+from softkin.core.manifest import MANIFEST, files_of_runs, write_manifest
 from softkin.core.runs import Run
 
 NAMES = ("paper/fit.json", "tuned/fit.json", "tuned/parameters.json")
