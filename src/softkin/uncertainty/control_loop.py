@@ -36,6 +36,23 @@ class State:
         self.memory: Array | None = None
         self.last: Array | None = None
 
+    @property
+    def assumes(self) -> str:
+        """What predictions from here on take for granted, in words."""
+        if self.estimator is None:
+            return "The command alone decides: the recording order of this robot is not known."
+        rest = ", ".join(f"{value:.4g}" for value in self.estimator.robot.rest)
+        memory = f"The robot was at rest at ({rest})" if self.last is None else "The robot was sent the commands so far"
+        if self.session != UNSEEN:
+            return f"{memory}, in session {self.session:.0f} of its recording."
+        if self.robot.recalibration is not None:
+            return f"{memory}, in the session whose {self.robot.recalibration.n_poses} poses were labelled."
+        n_sessions = len(self.estimator.sessions_)
+        return (
+            f"{memory}, in a session never seen: its zero is taken as the average of {n_sessions} known, and intervals "
+            "are wider by how much these differ, until a few labelled poses recalibrate it."
+        )
+
     def inputs(self, commands: Array) -> Array:
         """What the model is given at `commands` (n_rows, n_commands), sent one after the other from here on."""
         if self.estimator is None:

@@ -61,6 +61,17 @@ def test_a_session_never_seen_is_wider_until_it_is_recalibrated(robot: Calibrate
     np.testing.assert_array_equal(twice.zero, again.recalibration.zero)
 
 
+def test_a_state_says_what_it_assumes(robot: CalibratedModel) -> None:
+    state = robot.start()
+    assert "at rest at (0, 0), in a session never seen" in state.assumes
+    assert "average of 2 known" in state.assumes
+    state.step(ROWS.commands[0])
+    assert "was sent the commands so far" in state.assumes
+    assert "in session 1 of its recording" in robot.start(session=1).assumes
+    again = robot.recalibrate(ROWS.commands[:5], ROWS.positions[:5])
+    assert "whose 5 poses were labelled" in again.start().assumes
+
+
 def test_poses_outside_are_refused(robot: CalibratedModel) -> None:
     with pytest.raises(DataError, match="1 of 2 commands lie in extrapolation"):
         robot.recalibrate(np.array([[0.0, 0.0], [4.0, 4.0]]), np.zeros((2, 3)))
@@ -87,6 +98,7 @@ def test_a_robot_without_a_recording_is_followed_too() -> None:
         "arm", MODELS["gp"], "tuned", fitted_model(MODELS["gp"], FitSettings(GP, True, 0, 1), rows), rows
     )
     robot = calibrated(model, INTERVAL_METHODS["scp_crepes"], rows)
+    assert "The command alone decides" in robot.start().assumes
     np.testing.assert_array_equal(robot.follow(rows.commands[:5]), robot.predict(rows.commands[:5]))
     np.testing.assert_allclose(robot.start().step(rows.commands[0]).position, robot.predict(rows.commands[:1])[0])
     moved = replace(rows, positions=rows.positions + 2.0)
