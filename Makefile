@@ -1,4 +1,6 @@
-# make run: the whole pipeline. make test: the tests. Each installs what it needs into .venv first.
+# Most targets install what they need into .venv first. The comment above a target is its line in `make help`.
+# Whether a person names the interpreter: then .venv is made anew where it has another one.
+PYTHON_NAMED := $(filter command environment,$(firstword $(origin PYTHON)))
 PYTHON ?= python3
 CORES ?= 2
 IN ?= .
@@ -12,6 +14,14 @@ export $(GIVEN)
 export MLFLOW_DISABLE_TELEMETRY := true
 # Things run side by side, one core each: with more threads than that they wait for each other most of the time.
 export OMP_NUM_THREADS := 1
+# Packages of other people's environments, those of ROS for one, are no part of this one.
+unexport PYTHONPATH PYTHONHOME
+export PYTHONNOUSERSITE := 1
+# Without a home that can be written to, libraries keep here what they keep there.
+ifneq ($(shell test -w "$$HOME" && echo yes),yes)
+export XDG_CACHE_HOME := $(CURDIR)/.venv/cache
+export MPLCONFIGDIR := $(CURDIR)/.venv/cache/matplotlib
+endif
 
 .PHONY: help run demo campaign refit prune unlock new-robot test test-workflow test-others test-run lint ui store report verify
 .PHONY: gallery numbers results-page
@@ -19,6 +29,13 @@ export OMP_NUM_THREADS := 1
 .PHONY: benchmark-figures benchmark-commands benchmark-many-robots
 .PHONY: environment clean ui-screenshot bad-inputs-page
 
+# These targets, each with the first sentence of the comment above it.
+help:
+	@awk '/^# / { text = text substr($$0, 2); next } \
+	  /^[a-z][a-z-]*:/ && text { sub(/[.] .*|[.]$$/, "", text); sub(/:.*/, "", $$1); printf "make %-22s%s\n", $$1, text } \
+	  { text = "" }' Makefile
+
+# The whole pipeline: what is not up to date is made, and nothing else.
 run: .venv/installed
 	$(BIN)/snakemake --cores "$$CORES"
 
@@ -27,27 +44,36 @@ demo: .venv/installed
 	env -u MLFLOW_TRACKING_URI $(BIN)/snakemake --cores "$$CORES" --directory results/demo --configfile config/demo.yaml
 	@echo "All of this is in results/demo: open results/demo/results/report.html, or browse it by make ui IN=results/demo"
 
-# After a kill -9 or a power cut, when no other run is going on: `make unlock run`.
+# Clear what a killed run left, which every run does at its start. It is refused while another run goes on.
 unlock: .venv/installed
 	$(BIN)/snakemake --unlock
 
-# A robot of your own: make new-robot FILE=arm.csv shows a guess of its entry, with WRITE=1 config/datasets.yaml gets it.
+# First unlock, then what it is for, also with -j.
+ifneq ($(filter unlock,$(MAKECMDGOALS)),)
+$(filter-out unlock .venv/%,$(MAKECMDGOALS)): | unlock
+endif
+
+# Guess the entry of a robot of your own from FILE, a table. With WRITE=1 config/datasets.yaml gets it.
 new-robot: .venv/installed
 	@$(BIN)/python -m softkin.cli.new_robot $${NAME:+--name="$$NAME"} $${WRITE:+--write} -- "$$FILE"
 
-# The workflow tests, which wait for one run of the workflow, beside all others.
+# All tests but the long ones. Those of the workflow wait for one run of it, beside all others.
 test: .venv/installed-dev
 	$(MAKE) --no-print-directory -j 2 test-workflow test-others
 
+# The tests that run the workflow.
 test-workflow: .venv/installed-dev
 	$(BIN)/pytest -m "not slow" tests/workflow
 
+# All other tests.
 test-others: .venv/installed-dev
 	$(BIN)/pytest -m "not slow" --ignore tests/workflow
 
+# The workflow on the configuration of the tests, in results/test-run.
 test-run: .venv/installed
 	$(BIN)/snakemake --cores "$$CORES" --directory results/test-run --configfile config/test.yaml
 
+# Linters, formatters and the type checker.
 lint: .venv/installed-dev
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
@@ -59,12 +85,13 @@ lint: .venv/installed-dev
 ui: .venv/installed
 	@$(BIN)/python -m softkin.cli.ui --directory="$$IN" --port="$$PORT"
 
-# One unattended run with a verdict: 0 same or better, 1 failed, 3 worse, 4 data for a person, 75 another one goes on.
+# One unattended run with a verdict and an exit code. 0 same or better, 1 failed, 3 worse, 4 data for a person, 75 another
+# one goes on.
 # NOTIFY: a command that gets the verdict on its standard input.
 campaign: .venv/installed
 	$(BIN)/python -m softkin.cli.campaign --cores="$$CORES" $${NOTIFY:+--notify="$$NOTIFY"}
 
-# The same, with everything redone: the same numbers must come out.
+# A campaign with everything redone: the same numbers must come out.
 refit: .venv/installed
 	$(BIN)/python -m softkin.cli.campaign --cores="$$CORES" --refit $${NOTIFY:+--notify="$$NOTIFY"}
 
@@ -74,8 +101,7 @@ prune: .venv/installed
 
 # Make the MLflow store anew, or bring it up to date, from results/.
 store: .venv/installed
-	rm -f results/mlflow_store.json
-	$(BIN)/snakemake --cores "$$CORES" --forcerun track
+	$(BIN)/snakemake --cores "$$CORES" --forcerun create_store track
 
 # The page of the run, results/report.html, and nothing that it does not need.
 report: .venv/installed
@@ -98,7 +124,7 @@ campaigns: .venv/installed-dev
 	$(BIN)/pip install --quiet --disable-pip-version-check pyelastica==1.0.0 pgserver==0.1.4 psycopg2-binary==2.9.13
 	$(BIN)/pytest -m slow
 
-# The test configuration on a real SLURM of one node, MLflow on PostgreSQL: as root on Debian, which has the packages.
+# The test configuration on a real SLURM of one node, MLflow on PostgreSQL. As root on Debian, which has the packages.
 campaign-slurm: .venv/installed-dev
 	$(BIN)/pip install --quiet --disable-pip-version-check snakemake-executor-plugin-slurm==2.8.0 pgserver==0.1.4 psycopg2-binary==2.9.13
 	$(BIN)/pytest -m slow tests/workflow/test_slurm.py
@@ -144,8 +170,8 @@ standins: .venv/installed
 numbers: .venv/installed
 	@$(BIN)/python -m tools.print_numbers
 
-# resources/timings.csv, which the estimate of the time left starts from: from a run of the default configuration that was
-# made here alone on the machine, from nothing.
+# resources/timings.csv, which the estimate of the time left starts from. It takes a run of the default configuration that
+# was made here alone on the machine, from nothing.
 timings: .venv/installed
 	$(BIN)/python -m tools.timings
 
@@ -162,20 +188,45 @@ results-page: .venv/installed
 ui-screenshot: .venv/installed-dev
 	$(BIN)/python -m tools.ui_screenshot
 
-# Pin every dependency anew, what a run installs by the hashes of its files: pip refuses any other.
 COMPILE := pip-compile --quiet --allow-unsafe --strip-extras --no-header --no-annotate \
   --no-emit-index-url --no-emit-find-links --no-emit-trusted-host --extra install
 
+# Pin every dependency anew, what a run installs by the hashes of its files: pip refuses any other.
 environment: .venv/installed-dev
 	$(BIN)/$(COMPILE) --extra dev --output-file environment-dev.txt pyproject.toml
 	$(BIN)/$(COMPILE) --generate-hashes --constraint environment-dev.txt --output-file environment.txt pyproject.toml
 
+# Remove all results and what Snakemake knows of them.
 clean:
 	rm -rf results .snakemake
 
+# Where the environment takes softkin from: that of a project that was copied or moved runs the code of another folder.
+# And which interpreter it has.
+ORIGIN := import importlib.util as u, os; print(os.path.realpath(u.find_spec("softkin").origin + "/../../.."))
+INTERPRETER := import sys; print(sys.version, getattr(sys, "base_prefix", ""))
+VERSION := import sys; print(".".join(map(str, sys.version_info[:3]))); sys.exit(sys.version_info < (3, 11))
+
+# Newer than .venv/installed when the environment has to be made anew: it is not whole, of another folder, or has
+# another interpreter than the one that was asked for.
+.venv/place: always
+	@if test -e .venv/installed && \
+	    test "$$($(BIN)/python -I -c '$(ORIGIN)' 2> /dev/null)" = "$$(pwd -P)" && \
+	    { test -z "$(PYTHON_NAMED)" || \
+	      test "$$($(BIN)/python -I -c '$(INTERPRETER)')" = "$$("$$PYTHON" -c '$(INTERPRETER)' 2> /dev/null)"; }; then \
+	  test -e $@ || touch -r .venv/installed $@; \
+	elif version="$$("$$PYTHON" -c '$(VERSION)' 2> /dev/null)"; then \
+	  rm -rf .venv && mkdir .venv && touch $@; \
+	else \
+	  printf 'softkin: it needs Python 3.11 or newer, and "%s" is %s; name another one, such as PYTHON=python3.12\n' \
+	    "$$PYTHON" "$${version:-none}" >&2; exit 1; \
+	fi
+
+.PHONY: always
+always:
+
 # Bytecode is compiled here because some machines forbid it at run time, and imports are three times slower without.
-.venv/installed: environment.txt pyproject.toml
-	"$$PYTHON" -m venv .venv
+.venv/installed: environment.txt pyproject.toml .venv/place
+	test -e $(BIN)/pip || "$$PYTHON" -m venv .venv
 	$(BIN)/pip install --quiet --disable-pip-version-check -r environment.txt
 	$(BIN)/pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
 	$(BIN)/python -m compileall -q .venv/lib src > /dev/null || true

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import os
-import shutil
-import subprocess
 from pathlib import Path
 
 import pytest
 
 from tests.conftest import HOUSE
 from tests.nasty import NASTY
+from tests.tools.house_of_programs import house as house
+from tests.tools.house_of_programs import made
 
 #: Each would make a file `hit`, or break the recipe, where it is taken for more than text.
 VALUES = (
@@ -28,35 +27,12 @@ VALUES = (
 )
 
 
-@pytest.fixture
-def house(tmp_path: Path) -> Path:
-    """The Makefile, and programs that write down their arguments."""
-    shutil.copy(HOUSE / "Makefile", tmp_path)
-    for name in ("environment.txt", "pyproject.toml", "environment-dev.txt"):
-        (tmp_path / name).touch()
-    bin_ = tmp_path / ".venv" / "bin"
-    bin_.mkdir(parents=True)
-    for name in ("python", "snakemake", "mlflow", "pip"):
-        (bin_ / name).write_text('#!/bin/sh\nprintf "%s\\0" "$@" > "$HEARD"\npwd > "$HEARD.folder"\n')
-        (bin_ / name).chmod(0o755)
-    (tmp_path / ".venv" / "installed").touch()
-    return tmp_path
-
-
 def heard(house: Path, target: str, **given: str) -> list[str]:
     """The arguments of the last program that `make target` started, with variables given on its command line."""
-    file = house / "heard"
-    done = subprocess.run(
-        ["make", "-s", target, *(f"{name}={value}" for name, value in given.items())],
-        cwd=house,
-        env=os.environ | {"HEARD": str(file)},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    done = made(house, "-s", target, *(f"{name}={value}" for name, value in given.items()))
     assert done.returncode == 0, done.stderr
     assert not list(house.rglob("hit*"))
-    return file.read_text().split("\0")[:-1]
+    return (house / "heard").read_text().split("\0")[:-1]
 
 
 @pytest.mark.parametrize("value", VALUES)
@@ -92,8 +68,7 @@ def test_variables_of_the_environment_are_text_too(house: Path, monkeypatch: pyt
 def test_the_interpreter_is_one_word(house: Path, value: str) -> None:
     """There is none of that name; nothing else is run for it."""
     (house / ".venv" / "installed").unlink()
-    done = subprocess.run(["make", f"PYTHON={value}", "run"], cwd=house, capture_output=True, check=False)
-    assert done.returncode != 0
+    assert made(house, f"PYTHON={value}", "run").returncode != 0
     assert not list(house.rglob("hit*"))
 
 

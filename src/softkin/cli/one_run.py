@@ -23,9 +23,9 @@ from softkin.core.files import read_json, write_json
 LOCK, HOLDER = "softkin.lock", "softkin_run.json"
 #: Snakemake writes the scripts that it runs here.
 SCRIPTS = ".snakemake/scripts/"
-#: Options by which Snakemake only looks, or only forgets locks.
+#: Options by which Snakemake only looks.
 ONLY_LOOKING = {
-    *("-n", "--dry-run", "--dryrun", "--lint", "--report", "--unlock", "--summary", "--detailed-summary", "-D", "-S"),
+    *("-n", "--dry-run", "--dryrun", "--lint", "--report", "--summary", "--detailed-summary", "-D", "-S"),
     *("--list-rules", "-l", "--list", "--rulegraph", "--dag", "--d3dag", "--filegraph", "--list-code-changes"),
     *("--list-params-changes", "--list-input-changes", "--containerize"),
 }

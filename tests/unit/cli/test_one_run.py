@@ -100,6 +100,7 @@ def test_a_process_that_does_not_listen_is_ended_by_force() -> None:
         (["--report=page.html"], True),
         (["--config", "seed=1"], False),
         (["results/report.html"], False),
+        (["--unlock"], False),  # which nobody may do to another run
     ],
 )
 def test_looking_needs_no_lock(arguments: list[str], looks: bool) -> None:
