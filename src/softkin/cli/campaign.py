@@ -71,12 +71,11 @@ def _campaign(asked: Arguments, results: Path) -> Verdict:
     started = time.time()
     ended = run_workflow(_command(asked), directory=asked.directory, results=results, refit=asked.refit)
     found = Results(results, started, ended)
-    if ended.exit_code != 0:
-        return log_failure(found, _reasons(ended, results, started))
+    reasons = _reasons(ended, results, started) if ended.exit_code != 0 else []
     try:
-        return judge_results(found, refit=asked.refit)
+        return log_failure(found, reasons) if reasons else judge_results(found, refit=asked.refit)
     except SoftkinError as error:
-        return Verdict(FAILED, [str(error)], facts=found.facts())
+        return Verdict(FAILED, [*reasons, str(error)], facts=found.facts())
 
 
 def _command(asked: Arguments) -> list[str]:

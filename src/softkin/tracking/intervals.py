@@ -109,14 +109,14 @@ def _record(
 
 
 def _metrics(rows: pd.DataFrame) -> dict[str, float]:
-    """test/coverage_90, test/joint_coverage_90, extrapolation/winkler_mm_90, ...; finite ones only."""
+    """test/coverage_90, test/joint_coverage_90, extrapolation/winkler_mm_90, ...; those that are defined."""
     values = {}
     for row in rows[rows["coordinate"].isin(SHOWN)].to_dict("records"):
         for metric in METRICS:
             percent = f"{100 * row['confidence_level']:g}"
             kind = f"{row['interval_method']}_" if row["run"] == REGIONS else SHOWN[row["coordinate"]]
             values[f"{row['subset']}/{kind}{metric}_{percent}"] = float(row[metric])
-    return {name: value for name, value in values.items() if np.isfinite(value)}
+    return {name: value for name, value in values.items() if not np.isnan(value)}
 
 
 def _note(rows: pd.DataFrame, method: str) -> str:

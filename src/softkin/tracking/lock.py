@@ -20,6 +20,7 @@ from mlflow import MlflowClient
 from mlflow.exceptions import MlflowException
 
 from softkin.core.errors import StoreError
+from softkin.tracking.server import check_answers
 from softkin.tracking.store import SQLITE
 
 logger = logging.getLogger("softkin")
@@ -65,6 +66,7 @@ def _file_lock(tracking_uri: str, name: str, patience: float) -> Iterator[None]:
 
 @contextmanager
 def _server_lock(tracking_uri: str, name: str, patience: float) -> Iterator[None]:
+    check_answers(tracking_uri)
     client, lock = MlflowClient(tracking_uri), f"{PREFIX}{name}"
     holder = f"{socket.gethostname()} {os.getpid()}"
     deadline = time.monotonic() + patience

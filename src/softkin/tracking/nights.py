@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import logging
+import math
 import tempfile
 import time
 from collections.abc import Mapping, Sequence
@@ -19,7 +20,7 @@ from mlflow.exceptions import MlflowException
 
 from softkin.core.files import read_json
 from softkin.tracking.promotion import CANDIDATE, CHAMPION, aliases_of, promote
-from softkin.tracking.records import find
+from softkin.tracking.records import find, infinite_of
 from softkin.tracking.saved_view import CAMPAIGNS_TAG, campaigns_view
 from softkin.tracking.store import NOTE, experiment_of
 
@@ -110,7 +111,7 @@ def log_night(client: MlflowClient, record: NightRecord) -> str:
     tags = {"kind": KIND, "campaign": campaign, **_tags(record)}
     run_id = str(client.create_run(experiment, int(1000 * record.started), tags, name).info.run_id)
     now = int(1000 * time.time())
-    metrics = [Metric(key, value, now, 0) for key, value in _metrics(verdict, summary).items()]
+    metrics = [Metric(key, value, now, 0) for key, value in _metrics(verdict, summary).items() if math.isfinite(value)]
     for start in range(0, len(metrics), BATCH):
         client.log_batch(run_id, metrics=metrics[start : start + BATCH])
     client.log_text(run_id, json.dumps(verdict, indent=2, allow_nan=False), "verdict.json")
@@ -197,7 +198,7 @@ def _tags(record: NightRecord) -> dict[str, str]:
     verdict, summary = record.verdict, record.summary
     known = ("commit", "jobs_run", "jobs_reused", "promoted")
     tags = {name: str(verdict[name]) for name in known if verdict.get(name) is not None}
-    tags |= {"verdict": verdict["outcome"], NOTE: record.page}
+    tags |= {"verdict": verdict["outcome"], NOTE: record.page, **infinite_of(_metrics(verdict, summary))}
     if summary:
         tags |= {"configuration_sha256": summary["configuration_sha256"]}
         tags |= {"environment_sha256": summary["software_sha256"]}
@@ -211,9 +212,10 @@ def _deployed(run: Mapping[str, str]) -> str:
 
 
 def _metrics(verdict: Mapping[str, Any], summary: Mapping[str, Any] | None) -> dict[str, float]:
-    """finger/test/rmse_mm, ..., and what the campaign took; finite numbers alone."""
-    values = {name: verdict.get(name) for name in ("duration_seconds", "cpu_seconds", "jobs_run", "jobs_reused")}
-    values["exit_code"] = verdict["exit_code"]
+    """finger/test/rmse_mm, ..., and what the campaign took. A summary has null for what is infinite."""
+    known = ("duration_seconds", "cpu_seconds", "jobs_run", "jobs_reused", "exit_code")
+    values = {name: float(verdict[name]) for name in known if verdict.get(name) is not None}
     for dataset, data in (summary["datasets"] if summary else {}).items():
-        values |= {f"{dataset}/{name}": value for name, value in data["metrics"].items()}
-    return {name: float(value) for name, value in values.items() if value is not None}
+        of_dataset = data["metrics"].items()
+        values |= {f"{dataset}/{name}": math.inf if value is None else float(value) for name, value in of_dataset}
+    return values

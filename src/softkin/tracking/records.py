@@ -10,6 +10,7 @@ from __future__ import annotations
 import hashlib
 import json
 import logging
+import math
 import time
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -31,6 +32,8 @@ SUPERSEDED_AT = "superseded_at"
 #: The value of `superseded_by` where the configuration has no such run any more.
 NOTHING = "nothing"
 YES, NO = "true", "false"
+#: Tag that names the metrics that are infinite, for example the width of an interval whose level cannot be had.
+INFINITE = "infinite"
 #: The store takes a thousand metrics a batch.
 BATCH = 900
 #: Entries that the store gives at once.
@@ -40,7 +43,8 @@ PAGE = 1000
 @dataclass(frozen=True, slots=True)
 class Record:
     """What one run shows. It is a new run when its `content` changes; `texts` and `files` become artifacts, `figures`
-    artifacts in a folder of that name. `started` (milliseconds) and `seconds` place it in the UI's table.
+    artifacts in a folder of that name. `started` (milliseconds) and `seconds` place it in the UI's table. Of `metrics`
+    the finite ones become metrics; the infinite ones are named in a tag.
     """
 
     key: str
@@ -63,8 +67,18 @@ class Record:
 
     @property
     def hash(self) -> str:
-        """SHA-256 (hex) of the content."""
-        return hashlib.sha256(json.dumps(self.content, sort_keys=True).encode()).hexdigest()
+        """SHA-256 (hex) of the content, and of what is infinite."""
+        infinite = infinite_of(self.metrics)
+        shown = [self.content, infinite] if infinite else self.content
+        return hashlib.sha256(json.dumps(shown, sort_keys=True).encode()).hexdigest()
+
+
+def infinite_of(metrics: Mapping[str, float]) -> dict[str, str]:
+    """The tag that names the infinite ones of `metrics`; nothing where there are none. A store would keep them as the
+    largest number there is, and nobody tells that from a measured one.
+    """
+    names = sorted(name for name, value in metrics.items() if math.isinf(value))
+    return {INFINITE: ", ".join(names)} if names else {}
 
 
 def put(client: MlflowClient, experiment: str, record: Record, there: Sequence[Run] | None = None) -> str:
@@ -169,11 +183,11 @@ def log_artifacts(client: MlflowClient, run_id: str, record: Record) -> None:
 
 def _create(client: MlflowClient, experiment: str, record: Record) -> str:
     """A new run with all that the record shows but its content; return its id."""
-    tags = {KEY: record.key, **record.tags, CURRENT: NO}
+    tags = {KEY: record.key, **record.tags, **infinite_of(record.metrics), CURRENT: NO}
     run_id = str(client.create_run(experiment, record.started, tags, record.name).info.run_id)
     now = int(time.time() * 1000)
-    metrics = [Metric(name, value, now, 0) for name, value in record.metrics.items()]
-    metrics += [Metric(name, value, now, step) for name, step, value in record.curves]
+    points = [(name, 0, value) for name, value in record.metrics.items()] + [*record.curves]
+    metrics = [Metric(name, value, now, step) for name, step, value in points if math.isfinite(value)]
     params = [Param(name, str(value)) for name, value in record.params.items()]
     for start in range(0, max(len(metrics), 1), BATCH):
         client.log_batch(run_id, metrics=metrics[start : start + BATCH], params=params if start == 0 else ())

@@ -13,6 +13,9 @@ from typing import Any
 
 os.environ.setdefault("MLFLOW_DISABLE_TELEMETRY", "true")
 os.environ.setdefault("MLFLOW_ENABLE_ARTIFACTS_PROGRESS_BAR", "false")
+# A server that dies is given up after a quarter of a minute; by default MLflow tries it for four minutes and more.
+os.environ.setdefault("MLFLOW_HTTP_REQUEST_MAX_RETRIES", "3")
+os.environ.setdefault("MLFLOW_HTTP_REQUEST_TIMEOUT", "60")
 
 import mlflow
 from filelock import FileLock
@@ -25,6 +28,7 @@ from softkin.core.files import read_json
 from softkin.core.urls import without_credentials
 from softkin.data.audit.findings import LEAK
 from softkin.tracking.artifacts import artifacts_beside, move_locations
+from softkin.tracking.server import check_answers
 
 logger = logging.getLogger("softkin")
 
@@ -74,7 +78,11 @@ def caution_content(campaign: Campaign) -> dict[str, str]:
 
 
 def create_store(tracking_uri: str) -> None:
-    """Create the MLflow store if there is none. One job does this before any other opens it: first use is a race."""
+    """Create the MLflow store if there is none. One job does this before any other opens it: first use is a race.
+
+    Raises:
+        StoreError: a server does not answer.
+    """
     if tracking_uri.startswith(SQLITE):
         file = Path(tracking_uri.removeprefix(SQLITE)).resolve()
         with FileLock(f"{file}.lock"):
@@ -83,6 +91,7 @@ def create_store(tracking_uri: str) -> None:
             connection.execute("PRAGMA journal_mode=WAL")
             connection.close()
     else:
+        check_answers(tracking_uri)
         MlflowClient(tracking_uri).search_experiments(max_results=1)
     logger.info("the MLflow store is %s", without_credentials(tracking_uri))
 
@@ -94,8 +103,9 @@ def client_of(tracking_uri: str) -> MlflowClient:
     where nobody named it. Locations of artifacts in a store that was moved or copied are corrected.
 
     Raises:
-        StoreError: the store is gone.
+        StoreError: the store is gone, or its server does not answer.
     """
+    check_answers(tracking_uri)
     if tracking_uri.startswith(SQLITE):
         file = Path(tracking_uri.removeprefix(SQLITE))
         if not file.exists():

@@ -11,6 +11,7 @@ import pytest
 
 from softkin.cli import campaign
 from softkin.cli.workflow_process import Ended
+from softkin.core.errors import StoreError
 from softkin.core.files import read_json
 
 HOLD = """
@@ -76,3 +77,15 @@ def test_a_campaign_that_was_stopped_says_by_what(tmp_path: Path, monkeypatch: p
     monkeypatch.setattr(campaign, "run_workflow", lambda *_, **__: ended(signal="SIGTERM"))
     assert campaign.main(["--directory", str(tmp_path)]) == 1
     assert read_json(tmp_path / "results" / "verdict.json")["reasons"] == ["It was stopped by SIGTERM."]
+
+
+def test_a_tracking_server_that_is_gone_hides_no_other_reason(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def gone(*_: object) -> None:
+        raise StoreError("the tracking server does not answer", where="http://127.0.0.1:5", fix="start it")
+
+    monkeypatch.setattr(campaign, "run_workflow", lambda *_, **__: ended())
+    monkeypatch.setattr(campaign, "log_failure", gone)
+    assert campaign.main(["--directory", str(tmp_path)]) == 1
+    first, second = read_json(tmp_path / "results" / "verdict.json")["reasons"]
+    assert first.startswith("The workflow ended with exit code 1")
+    assert "the tracking server does not answer" in second

@@ -152,3 +152,18 @@ def test_a_model_with_shells_is_scored_by_the_intervals_that_it_gives(
     run = client.get_run(client.get_model_version_by_alias(NAME, "champion").run_id)
     assert run.data.metrics["extrapolation/coverage_90"] == 0.75
     assert run.data.tags["interval_method"] == "scp_spread"
+
+
+def test_an_infinite_width_is_a_word_and_no_metric(campaign: Campaign, files: dict[str, Any]) -> None:
+    """Of a robot that has too few rows for the level."""
+    table = interval_metrics().assign(mean_width_mm=np.inf, winkler_mm=np.inf)
+    table.to_csv(files["intervals"], index=False)
+    log_champion(campaign, **files)
+    client = client_of_store(campaign)
+    run = client.get_run(client.get_model_version_by_alias(NAME, "champion").run_id)
+    assert "test/coverage_90" in run.data.metrics
+    assert max(run.data.metrics.values()) < 100
+    subsets = ("extrapolation", "test")
+    assert run.data.tags["infinite"] == ", ".join(
+        f"{subset}/{name}_90" for subset in subsets for name in ("mean_width_mm", "winkler_mm")
+    )

@@ -51,6 +51,7 @@ def logged(client: Any, folder: Path, outcome: str = "same", started: float = 1.
 def test_a_campaign_is_a_run_of_its_own_with_all_headline_metrics(client: Any, tmp_path: Path) -> None:
     run = client.get_run(logged(client, tmp_path))
     assert run.data.metrics == {"finger/test/rmse_mm": 1.5, "duration_seconds": 9.5, "jobs_run": 3.0, "exit_code": 0.0}
+    assert run.data.tags["infinite"] == "finger/test/mean_width_mm_90"
     assert run.data.tags["verdict"] == "same"
     assert run.data.tags["deployed.finger"] == "gp tuned scp_mapie"
     assert run.data.tags["data_sha256.finger"] == "ab"

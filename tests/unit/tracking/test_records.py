@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from pathlib import Path
 
@@ -38,6 +39,18 @@ def test_a_run_shows_its_record(client: MlflowClient, experiment: str, tmp_path:
     assert run.data.params == {"C": "1.0"}
     assert len(client.get_metric_history(run.info.run_id, "trials/score_mm")) == BATCH + 5
     assert {file.path for file in client.list_artifacts(run.info.run_id)} == {"card.md", "fit.json", "figures"}
+
+
+def test_what_is_infinite_is_named_and_no_metric(client: MlflowClient, experiment: str) -> None:
+    """A store keeps the largest number there is in its place, which looks like a measured one."""
+    metrics = {"test/rmse_mm": 1.5, "test/width_mm_99": math.inf, "test/lowest": -math.inf, "test/undefined": math.nan}
+    record = replace(RECORD, metrics=metrics, curves=[("score_mm", 0, math.inf), ("score_mm", 1, 2.0)])
+    run = client.get_run(put(client, experiment, record))
+    assert run.data.metrics == {"test/rmse_mm": 1.5, "score_mm": 2.0}
+    assert run.data.tags["infinite"] == "test/lowest, test/width_mm_99"
+    finite = put(client, experiment, replace(record, metrics={"test/rmse_mm": 1.5}))
+    assert finite != run.info.run_id
+    assert "infinite" not in client.get_run(finite).data.tags
 
 
 def test_the_same_content_is_logged_once_and_other_content_takes_its_place(
