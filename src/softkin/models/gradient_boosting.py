@@ -35,6 +35,7 @@ def search_space(trial: BaseTrial) -> Params:
 
 
 _START = {"max_features": 1.0, "min_samples_leaf": 1}
+_FIRST = ("linear", "quadratic", "none")
 
 SPEC = ModelSpec(
     name="gb",
@@ -44,10 +45,8 @@ SPEC = ModelSpec(
     # No histograms: scikit-learn's own settings of its GradientBoostingRegressor.
     paper_params={},
     search_space=search_space,
-    first_trials=(
-        {"trend": "linear", "max_iter": 100, "learning_rate": 0.1, "max_depth": 3, **_START},
-        {"trend": "quadratic", "max_iter": 100, "learning_rate": 0.1, "max_depth": 3, **_START},
-        {"trend": "none", "max_iter": 250, "learning_rate": 0.05, "max_depth": 5, **_START},
+    first_trials=tuple(
+        {"trend": trend, "max_iter": 100, "learning_rate": 0.1, "max_depth": 3, **_START} for trend in _FIRST
     ),
     bounded=bounded_trend,
     is_cheap=True,
