@@ -19,6 +19,8 @@ from tests.conftest import HOUSE
 
 #: Of one run, with the other tests beside it.
 MAX_SECONDS = 580
+#: The environment under a name with a blank.
+VENV = "my venv"
 #: Nothing listens there.
 NOWHERE = "http://127.0.0.1:9/FINGER.json"
 
@@ -61,10 +63,16 @@ class House:
         self, *options: str, cores: int | None = 2, work: Path | None = None, more: Path | None = None
     ) -> list[str]:
         """The command line of a run; `cores` is None where an executor hands out the jobs."""
-        command = [sys.executable, "-m", "snakemake", *(["--cores", str(cores)] if cores else [])]
+        command = [str(self.python), "-m", "snakemake", *(["--cores", str(cores)] if cores else [])]
         command += ["--snakefile", str(self.root / "Snakefile"), "--directory", str(work or self.work), *options]
         configuration = [self.root / "config" / "test.yaml", self.mirror / "override.yaml", *([more] if more else [])]
         return [*command, "--configfile", *map(str, configuration)]
+
+    @property
+    def python(self) -> Path:
+        """The interpreter: by a path with a blank, where the house has one."""
+        beside = self.root.parent / VENV / "bin" / Path(sys.executable).name
+        return beside if beside.exists() else Path(sys.executable)
 
     def environment(self) -> dict[str, str]:
         """The environment variables of a run."""
@@ -112,12 +120,13 @@ def copy_house(root: Path) -> None:
 
 @pytest.fixture(scope="session")
 def house(tmp_path_factory: pytest.TempPathFactory, mirror: Path) -> House:
-    """After one complete run."""
+    """After one complete run, in folders with blanks and an umlaut in their names."""
     folder = tmp_path_factory.mktemp("house")
-    copy_house(folder / "house")
-    (folder / "work").mkdir()
-    house = House(folder / "house", folder / "work", mirror)
+    copy_house(folder / "Haus für Roboter")
+    (folder / "Arbeit 1").mkdir()
+    (folder / VENV).symlink_to(sys.prefix)
+    house = House(folder / "Haus für Roboter", folder / "Arbeit 1", mirror)
     done = house.snakemake()
     assert done.returncode == 0, done.stdout[-5000:] + done.stderr[-5000:]
-    (folder / "work" / "first_run.txt").write_text(done.stdout + done.stderr)
+    (house.work / "first_run.txt").write_text(done.stdout + done.stderr)
     return house

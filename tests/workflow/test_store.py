@@ -18,6 +18,7 @@ import pytest
 from mlflow import MlflowClient
 
 from softkin.core.files import sha256_of
+from softkin.tracking.artifacts import folder_of
 from softkin.tracking.records import KEY
 from softkin.tracking.store import PARENT
 from tests.conftest import HOUSE
@@ -35,7 +36,7 @@ def files_below(folder: Path, *, hashed: bool) -> dict[str, str]:
 
 def local(uri: str | None) -> Path:
     assert uri is not None
-    return Path(uri.removeprefix("file://"))
+    return folder_of(uri)
 
 
 def experiment_id(client: MlflowClient, name: str) -> str:
