@@ -94,11 +94,7 @@ def test_a_reader_is_decided_by_the_files_that_it_reads_with() -> None:
         }
 
     text_or_parquet = {"table_file", "columns", "delimited_text", "bad_rows", "parquet_columns"}
-    expected = {f"data/readers/{name}.py" for name in text_or_parquet} | {
-        "data/split.py",
-        "core/samples.py",
-        "core/recording.py",
-    }
+    expected = {f"data/readers/{name}.py" for name in text_or_parquet} | {"data/split.py", "core/samples.py"}
     expected |= {"core/recording.py", "data/recordings.py", "data/split_in_time.py"}
     assert names("table_file") == expected
     assert names("published_json") == {"data/readers/published_json.py", "core/samples.py", "core/recording.py"}
