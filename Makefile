@@ -5,10 +5,12 @@ PYTHON ?= python3
 CORES ?= 2
 IN ?= .
 PORT ?= 5000
+AT ?= 03:17
+KIND ?= all
 BIN := .venv/bin
 # What a person gives: recipes read it from their environment, "$$FILE", as it is. Written into a recipe as $(FILE) a quote
 # or a $(...) in it would be run by the shell, and a $(...) by make.
-GIVEN := PYTHON CORES IN FILE NAME WRITE PORT KEEP NOTIFY
+GIVEN := PYTHON CORES IN FILE NAME WRITE PORT KEEP NOTIFY AT KIND
 $(foreach name,$(GIVEN),$(eval override $(name) := $$(value $(name))))
 export $(GIVEN)
 export MLFLOW_DISABLE_TELEMETRY := true
@@ -23,7 +25,7 @@ export XDG_CACHE_HOME := $(CURDIR)/.venv/cache
 export MPLCONFIGDIR := $(CURDIR)/.venv/cache/matplotlib
 endif
 
-.PHONY: help run demo campaign refit prune unlock new-robot test test-workflow test-others test-run lint ui store report verify
+.PHONY: help run demo campaign refit schedule prune unlock new-robot test test-workflow test-others test-run lint ui store report verify
 .PHONY: gallery numbers results-page
 .PHONY: snakemake-report campaigns campaign-slurm coverage standins timings benchmark benchmark-large benchmark-pruning benchmark-shells
 .PHONY: benchmark-figures benchmark-commands benchmark-many-robots
@@ -86,14 +88,18 @@ ui: .venv/installed
 	@$(BIN)/python -m softkin.cli.ui --directory="$$IN" --port="$$PORT"
 
 # One unattended run with a verdict and an exit code. 0 same or better, 1 failed, 3 worse, 4 data for a person, 75 another
-# one goes on.
-# NOTIFY: a command that gets the verdict on its standard input.
+# one goes on; make itself prints it and ends with 2 where it is not 0.
+# NOTIFY: a command that gets the verdict on its standard input. NOTIFY_URLS in the environment: URLs of Apprise.
 campaign: .venv/installed
 	$(BIN)/python -m softkin.cli.campaign --cores="$$CORES" $${NOTIFY:+--notify="$$NOTIFY"}
 
 # A campaign with everything redone: the same numbers must come out.
 refit: .venv/installed
 	$(BIN)/python -m softkin.cli.campaign --cores="$$CORES" --refit $${NOTIFY:+--notify="$$NOTIFY"}
+
+# What starts a campaign every day AT=03:17, ready to install. KIND: systemd, cron, github or all; docs/schedules.md.
+schedule: .venv/installed
+	@$(BIN)/python -m softkin.cli.schedule --at="$$AT" --kind="$$KIND" --cores="$$CORES" $${NOTIFY:+--notify="$$NOTIFY"}
 
 # Remove all campaigns but the last KEEP from MLflow, and what was superseded before them; it says what.
 prune: .venv/installed

@@ -56,6 +56,8 @@ def test_every_other_variable_is_text_too(house: Path, value: str) -> None:
     assert heard(house, "ui", IN=value, PORT=value) == [*module, f"--directory={value}", f"--port={value}"]
     module = ["-m", "softkin.cli.campaign"]
     assert heard(house, "campaign", NOTIFY=value) == [*module, "--cores=2", f"--notify={value}"]
+    schedule = ["-m", "softkin.cli.schedule", f"--at={value}", f"--kind={value}", "--cores=2"]
+    assert heard(house, "schedule", AT=value, KIND=value, NOTIFY=value) == [*schedule, f"--notify={value}"]
     assert heard(house, "prune", KEEP=value) == ["-m", "softkin.cli.prune", f"--keep={value}", "--yes"]
 
 

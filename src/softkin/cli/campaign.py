@@ -3,14 +3,14 @@
     python -m softkin.cli.campaign --cores 2
 
 Exit codes: 0 same or better, 1 failed, 3 worse, 4 the data changed in a way that needs a person, 75 another campaign
-goes on. results/verdict.json and results/verdict.md say why.
+goes on. results/verdict.json and results/verdict.md say why. NOTIFY_URLS in the environment: URLs of Apprise that get
+the verdict.
 """
 
 from __future__ import annotations
 
 import argparse
 import os
-import subprocess
 import sys
 import time
 from collections.abc import Sequence
@@ -22,6 +22,7 @@ from filelock import FileLock, Timeout
 
 from softkin.campaigns.verdict import BUSY, EXIT_CODES, FAILED, Verdict
 from softkin.cli.judging import Results, judge_results, log_failure
+from softkin.cli.notification import take_urls, tell
 from softkin.cli.workflow_process import Ended, run_workflow
 from softkin.core.errors import SoftkinError
 from softkin.core.files import read_json, write_json, write_text
@@ -44,6 +45,11 @@ class Arguments:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a campaign; return its exit code."""
     asked = _parsed(arguments)
+    try:
+        urls = take_urls()
+    except SoftkinError as error:
+        print(f"softkin: {error}", file=sys.stderr)
+        return EXIT_CODES[FAILED]
     os.chdir(asked.directory)  # a store in a file is named from here
     results = asked.directory / "results"
     results.mkdir(parents=True, exist_ok=True)
@@ -61,8 +67,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     write_json(results / "verdict.json", verdict.as_dict())
     write_text(results / "verdict.md", verdict.as_markdown())
     print(verdict.as_markdown())
-    if asked.notify:
-        _notify(asked.notify, verdict)
+    tell(verdict, command=asked.notify, urls=urls)
     return verdict.exit_code
 
 
@@ -97,14 +102,6 @@ def _reasons(ended: Ended, results: Path, started: float) -> list[str]:
         found = [line.split(" ERROR ", 1)[1] for line in lines if " ERROR " in line]
         errors += [f"{log.relative_to(results / 'logs').with_suffix('')}: {found[0]}"] if found else []
     return [*errors, f"The workflow ended with exit code {ended.exit_code}; results/logs and .snakemake/log say more."]
-
-
-def _notify(command: str, verdict: Verdict) -> None:
-    """Give the verdict to a command of the user's choice on its standard input; SOFTKIN_OUTCOME says how it ended."""
-    environment = os.environ | {"SOFTKIN_OUTCOME": verdict.outcome, "SOFTKIN_EXIT_CODE": str(verdict.exit_code)}
-    done = subprocess.run(command, shell=True, input=verdict.as_markdown(), text=True, env=environment, check=False)
-    if done.returncode:
-        print(f"softkin: the notification ended with exit code {done.returncode}: {command}", file=sys.stderr)
 
 
 def _parsed(arguments: Sequence[str] | None) -> Arguments:
