@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from http.server import BaseHTTPRequestHandler, HTTPServer
+from typing import Any
 
 import pytest
 from mlflow.environment_variables import MLFLOW_HTTP_REQUEST_MAX_RETRIES, MLFLOW_HTTP_REQUEST_TIMEOUT
@@ -80,5 +81,7 @@ def test_a_dead_server_is_one_sentence_within_seconds(
 
 
 def test_mlflow_gives_up_sooner_than_by_default() -> None:
-    assert MLFLOW_HTTP_REQUEST_MAX_RETRIES.get() < MLFLOW_HTTP_REQUEST_MAX_RETRIES.default
-    assert MLFLOW_HTTP_REQUEST_TIMEOUT.get() < MLFLOW_HTTP_REQUEST_TIMEOUT.default
+    retries: Any = MLFLOW_HTTP_REQUEST_MAX_RETRIES
+    timeout: Any = MLFLOW_HTTP_REQUEST_TIMEOUT
+    assert retries.get() < retries.default
+    assert timeout.get() < timeout.default
