@@ -125,7 +125,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
         sample("comes from above", color=DOWN, marker="<", markersize=5),
     ]
     legend_below(figure, samples, len(samples))
-    heading(figure, results, "what the robot remembers", SUBSETS)
+    heading(figure, results, "what the robot remembers", ())
     return figure
 
 
