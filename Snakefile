@@ -48,6 +48,7 @@ onstart:
 
 onsuccess:
     stop_watching()
+    describe_results()
     if Path(HEADLINE).exists():  # a run for a single file has none
         print(Path(HEADLINE).read_text(encoding="utf-8"))
     warn_of_stand_ins()

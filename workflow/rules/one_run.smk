@@ -4,7 +4,9 @@ import gc
 import json
 import shlex
 import sys
+import time
 
+from softkin.campaigns.crate import write_crate
 from softkin.cli.one_run import OneRun, only_looks
 from softkin.cli.redo import redo_damaged
 
@@ -27,12 +29,25 @@ def take_folder():
 def start_of_jobs():
     """Write how many jobs this run does."""
     gc.enable()
+    STARTED.append(time.time())
     names = [job.rule.name for job in workflow.dag.needrun_jobs() if not job.is_norun]
     counted = {"run": len(names), "all": sum(not j.is_norun for j in workflow.dag.jobs)}
     JOBS.parent.mkdir(parents=True, exist_ok=True)
     JOBS.write_text(json.dumps(counted), encoding="utf-8")
 
 
+def describe_results():
+    """Write what the run made, from what and when, as a Workflow Run RO-Crate beside the results."""
+    write_crate(
+        "results",
+        workflow=Path(workflow.basedir) / "Snakefile",
+        title=f"softkin {config['campaign']}",
+        started=STARTED[-1],
+        ended=time.time(),
+    )
+
+
+STARTED = []
 # What Snakemake builds before its first job is no garbage: looking for some takes a tenth of a large dry run.
 if workflow.is_main_process:
     gc.disable()
