@@ -104,7 +104,7 @@ def milliseconds(rows: Samples) -> float:
 
 
 def main(mirror: str | None = None) -> None:
-    """Print the tables."""
+    """Print the tables. `mirror` is a folder that holds FINGER.json."""
     zeros = (0.0, 2.0, -1.0)
     robots = [(f"arm {seed}", recorded_arm(900, backlash=0.04, zeros_mm=zeros, seed=seed)) for seed in range(5)]
     if mirror is not None:
