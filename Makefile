@@ -44,7 +44,6 @@ run: .venv/installed
 # A first look at everything, in a folder and a store of its own: one robot, few models, few trials.
 demo: .venv/installed
 	env -u MLFLOW_TRACKING_URI $(BIN)/snakemake --cores "$$CORES" --directory results/demo --configfile config/demo.yaml
-	@echo "All of this is in results/demo: open results/demo/results/report.html, or browse it by make ui IN=results/demo"
 
 # Clear what a killed run left, which every run does at its start. It is refused while another run goes on.
 unlock: .venv/installed

@@ -32,6 +32,7 @@ include: "workflow/rules/report.smk"
 include: "workflow/rules/track.smk"
 include: "workflow/rules/local.smk"
 include: "workflow/rules/watch.smk"
+include: "workflow/rules/final_screen.smk"
 
 
 rule all:
@@ -49,9 +50,7 @@ onstart:
 onsuccess:
     stop_watching()
     describe_results()
-    if Path(HEADLINE).exists():  # a run for a single file has none
-        print(Path(HEADLINE).read_text(encoding="utf-8"))
-    warn_of_stand_ins()
+    print_final_screen()
 
 
 onerror:

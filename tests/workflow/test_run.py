@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 import shutil
 import sqlite3
 from pathlib import Path
@@ -96,7 +97,9 @@ def test_the_run_ends_with_the_headline(house: House) -> None:
     assert "softkin: forward kinematics" in text
     caution = yaml.safe_load((house.root / "config" / "test.yaml").read_text())["caution"]
     assert f"CAUTION: {caution}" in text
-    assert "make ui" in text
+    assert f"{house.work}/results/report.html  " in text
+    assert f"{house.work}/results/finger/calibrated_model.joblib  " in text
+    assert f"make ui IN={shlex.quote(str(house.work))}  " in text
 
 
 def test_interval_metrics_have_a_row_for_everything(house: House) -> None:
@@ -203,7 +206,9 @@ def test_a_second_run_does_nothing(house: House) -> None:
         runs_before = store.execute("select run_uuid, lifecycle_stage from runs order by 1").fetchall()
     done = house.snakemake()
     assert done.returncode == 0
-    assert "Nothing to be done" in done.stdout + done.stderr
+    assert "softkin: nothing was to be done" in done.stdout
+    assert "softkin: forward kinematics" in done.stdout
+    assert f"{house.work}/results/report.html  " in done.stdout
     assert {p: p.stat().st_mtime_ns for p in (house.work / "results").rglob("*") if p.is_file()} == before
     with sqlite3.connect(house.work / "mlflow.db") as store:
         assert store.execute("select run_uuid, lifecycle_stage from runs order by 1").fetchall() == runs_before

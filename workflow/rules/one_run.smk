@@ -26,14 +26,21 @@ def take_folder():
         raise WorkflowError(str(error)) from None
 
 
+def counted_jobs():
+    """How many jobs this run does, and how many there are."""
+    needed = workflow.dag.needrun_jobs(exclude_finished=False)
+    counts = [
+        sum(not job.is_norun for job in jobs) for jobs in (needed, workflow.dag.jobs)
+    ]
+    return dict(zip(("run", "all"), counts, strict=True))
+
+
 def start_of_jobs():
     """Write how many jobs this run does."""
     gc.enable()
     STARTED.append(time.time())
-    names = [job.rule.name for job in workflow.dag.needrun_jobs() if not job.is_norun]
-    counted = {"run": len(names), "all": sum(not j.is_norun for j in workflow.dag.jobs)}
     JOBS.parent.mkdir(parents=True, exist_ok=True)
-    JOBS.write_text(json.dumps(counted), encoding="utf-8")
+    JOBS.write_text(json.dumps(counted_jobs()), encoding="utf-8")
 
 
 def describe_results():

@@ -59,8 +59,8 @@ def build_tables(tables: Tables, *, titles: Titles, folder: Path, caution: str |
     write_text(folder / "interval_tables.md", ours.markdown())
     write_text(folder / "interval_tables.tex", ours.latex())
     selected = deployed(frames["selection"]) if "selection" in frames else None
-    leaking = [card["dataset"] for card in tables.cards if card["is_leaking"]]
-    text = headline(selected, frames["point_metrics"], frames["interval_choice"], sentences, leaking, caution)
+    found = {card["dataset"]: card["findings"] for card in tables.cards}
+    text = headline(selected, frames["point_metrics"], frames["interval_choice"], sentences, found, caution)
     write_text(folder / "headline.txt", text)
 
 

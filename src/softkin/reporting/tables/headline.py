@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import pandas as pd
 
 from softkin.core.escaping import one_line
 from softkin.core.samples import EXTRAPOLATION, TEST
+from softkin.data.audit.findings import LEAK, NOTE
 from softkin.reporting.tables.interval_choice import chosen_intervals, deployed_intervals
 from softkin.reporting.tables.numbers import number_text, share_text
+from softkin.uncertainty.intervals.spec import AUTO
 
 WIDTH = 90
 AIMS = {
@@ -18,12 +21,8 @@ AIMS = {
     "extrapolation": "commands beyond those of train",
     "both": "commands like those of train and beyond",
 }
-FILES = (
-    "  results/report.html      the whole run on one page",
-    "  results/tables/          the tables, as CSV, Markdown and LaTeX",
-    "  results/tables/paper_tables.md   the paper's Tables 2 to 6 beside ours",
-    "  make ui                  browse every run in the MLflow UI",
-)
+#: Findings that are told in full, of each dataset; its data card has them all.
+MOST_FINDINGS = 4
 
 
 def headline(
@@ -31,7 +30,7 @@ def headline(
     point: pd.DataFrame,
     choice: pd.DataFrame,
     sentences: Sequence[str],
-    leaking: Sequence[str] = (),
+    findings: Mapping[str, Sequence[Mapping[str, Any]]] | None = None,
     caution: str | None = None,
 ) -> str:
     """Plain text of at most `WIDTH` columns.
@@ -41,7 +40,7 @@ def headline(
         point: as in point_metrics.csv.
         choice: as in interval_choice.csv.
         sentences: how the paper's cells compare with ours.
-        leaking: datasets whose test rows stand in train.
+        findings: of the audit of each dataset, as data_card.json has them; none by default.
         caution: what the configuration says of its own numbers.
     """
     width = 2 + max(18, *map(len, choice["dataset"]))
@@ -52,13 +51,14 @@ def headline(
             "",
         ]
     if selected is not None:
-        lines += _errors(selected, point, leaking, width)
+        lines += _errors(selected, point, width)
     lines += _intervals(choice, width)
+    lines += _findings(findings or {})
     lines += [f"  {sentence}" for sentence in sentences]
-    return "\n".join([*lines, "", *FILES, ""])
+    return "\n".join([*lines, ""])
 
 
-def _errors(selected: pd.DataFrame, point: pd.DataFrame, leaking: Sequence[str], width: int) -> list[str]:
+def _errors(selected: pd.DataFrame, point: pd.DataFrame, width: int) -> list[str]:
     """Lines on the errors of the deployed models."""
     lines = [f"  {'dataset':<{width}}{'model':<14}{'test':>13}{'95 % below':>13}{'extrapolation':>15}"]
     remarks = []
@@ -72,7 +72,6 @@ def _errors(selected: pd.DataFrame, point: pd.DataFrame, leaking: Sequence[str],
         lines.append(f"  {row.dataset:<{width}}{model:<14}{number_text(mean):>13}{number_text(p95):>13}{beyond:>15}")
         if mean > p95:
             remarks.append(f"  {row.dataset}: a few gross errors set the mean, which exceeds the 95th percentile.")
-    remarks += [f"  {dataset}: LEAK. Its test rows stand in train, see its data card." for dataset in leaking]
     aim = AIMS[selected["objective"].iloc[0]]
     return [*lines, "", f"  The model is chosen for {aim}, on `train` alone.", *remarks]
 
@@ -88,9 +87,43 @@ def _intervals(choice: pd.DataFrame, width: int) -> list[str]:
         run, size = f"{row.model} {row.preset}", number_text(row.test_mean_width_mm)
         shares = f"{share_text(row.test_coverage):>9}{share_text(row.extrapolation_coverage):>15}"
         lines.append(f"  {row.dataset:<{width}}{run:<14}{row.interval_method:<14}{size:>13}{shares}")
-    lines += ["", "  The method is the best around that model, chosen and calibrated on `validation`."]
-    lines += ["  In extrapolation nothing is guaranteed; outer shells of `train` widen intervals."]
-    return [*lines, *_not_deployed(choice), ""]
+    return [*lines, "", *_claims(choice, deployed), *_not_deployed(choice), ""]
+
+
+def _claims(choice: pd.DataFrame, deployed: pd.DataFrame) -> list[str]:
+    """Lines on what these intervals are, as far as it is so in this run."""
+    had_a_choice = (choice["dataset"].value_counts() > 1).all()
+    if had_a_choice and deployed["deployed"].all():
+        lines = ["  The method is the best around that model, chosen and calibrated on `validation`."]
+    else:
+        lines = ["  The method is calibrated on `validation`."]
+    widened = deployed.loc[deployed["outside"] == AUTO, "dataset"]
+    beyond = "  In extrapolation nothing is guaranteed"
+    if widened.empty:
+        return [*lines, f"{beyond}."]
+    if len(widened) == len(deployed):
+        return [*lines, f"{beyond}; outer shells of `train` widen intervals."]
+    return [*lines, *_wrapped(f"{beyond}; outer shells of `train` widen intervals of {', '.join(widened)}.")]
+
+
+def _findings(findings: Mapping[str, Sequence[Mapping[str, Any]]]) -> list[str]:
+    """Lines on what the audit found: leaks and warnings in full, as many as are told, and how many more there are."""
+    lines = []
+    for dataset, found in findings.items():
+        grave = sorted((one for one in found if one["severity"] != NOTE), key=lambda one: one["severity"] != LEAK)
+        told = grave[:MOST_FINDINGS]
+        for one in told:
+            word = "LEAK" if one["severity"] == LEAK else one["severity"]
+            lines += _wrapped(f"  {dataset}: {word}. {one_line(one['sentence'])}")
+        left = len(found) - len(told)
+        if left:
+            lines.append(f"  {dataset}: {left} {'more ' * bool(told)}finding{'s' * (left > 1)} in its data card.")
+    return ["  What the audit found:", *lines, ""] if lines else []
+
+
+def _wrapped(line: str) -> list[str]:
+    """The line, broken where it is longer than a headline is wide."""
+    return textwrap.wrap(line, WIDTH, subsequent_indent="    ", drop_whitespace=True)
 
 
 def _not_deployed(choice: pd.DataFrame) -> list[str]:

@@ -24,6 +24,7 @@ CHOICE = pd.DataFrame(
             "extrapolation_coverage": 0.95,
             "chosen": method == "cqr",
             "deployed": method == "scp_spread",
+            "outside": "auto" if method == "scp_spread" else method,
         }
         for method, width in (("cqr", 7.0), ("scp_spread", 2.5))
     ]
@@ -73,8 +74,45 @@ def test_a_chosen_method_that_is_not_deployed_is_named() -> None:
     assert "chosen is" not in headline(SELECTED, scores(0.5, 1.25), same, [])
 
 
-def test_a_leak_is_named() -> None:
-    assert "arm: LEAK. Its test rows stand in train" in headline(SELECTED, scores(0.5, 1.25), CHOICE, [], ["arm"])
+def test_a_leak_is_named_as_the_audit_found_it() -> None:
+    """It may be of `validation`, and other findings are none."""
+    leak = {"severity": "leak", "sentence": "9 of 60 rows of validation have a command that stands exactly in train."}
+    warning = {"severity": "warning", "sentence": "3 of 21 coordinates never move " + "and so on " * 20}
+    note = {"severity": "note", "sentence": "A trifle."}
+    text = headline(SELECTED, scores(0.5, 1.25), CHOICE, [], {"arm": [note, warning, leak], "other": []})
+    assert text.index("arm: LEAK. 9 of 60 rows of validation") < text.index("arm: warning. 3 of 21 coordinates")
+    assert "rows of test" not in text
+    assert "arm: 1 more finding in its data card." in text
+    assert "other:" not in text
+    assert max(map(len, text.splitlines())) <= 90
+    many = headline(SELECTED, scores(0.5, 1.25), CHOICE, [], {"arm": [warning] * 9})
+    assert many.count("arm: warning.") == 4
+    assert "arm: 5 more findings in its data card." in many
+    assert "arm: 2 findings in its data card." in headline(SELECTED, scores(0.5, 1.25), CHOICE, [], {"arm": [note] * 2})
+    for nothing in ({}, {"arm": []}, None):
+        assert "audit" not in headline(SELECTED, scores(0.5, 1.25), CHOICE, [], nothing)
+
+
+def test_it_claims_what_was_done() -> None:
+    text = headline(SELECTED, scores(0.5, 1.25), CHOICE, [])
+    assert "best around that model, chosen and calibrated on `validation`" in text
+    assert "nothing is guaranteed; outer shells of `train` widen intervals.\n" in text
+    without = headline(SELECTED, scores(0.5, 1.25), CHOICE.assign(outside=CHOICE["interval_method"]), [])
+    assert "In extrapolation nothing is guaranteed.\n" in without
+    assert "shells" not in without
+    alone = headline(SELECTED, scores(0.5, 1.25), CHOICE[CHOICE["deployed"]].assign(chosen=True), [])
+    assert "The method is calibrated on `validation`." in alone
+    assert "best" not in alone
+    none = headline(SELECTED, scores(0.5, 1.25), CHOICE.assign(deployed=False), [])
+    assert "best" not in none
+
+
+def test_shells_widen_the_intervals_of_some() -> None:
+    other = CHOICE.assign(dataset="other", outside=CHOICE["interval_method"])
+    both = pd.concat([SELECTED, SELECTED.assign(dataset="other")])
+    point = pd.concat([scores(0.5, 1.25), scores(0.5, 1.25).assign(dataset="other")])
+    text = headline(both, point, pd.concat([CHOICE, other]), [])
+    assert "outer shells of `train` widen intervals of arm." in " ".join(text.split())
 
 
 def test_tiny_errors_keep_the_columns_apart() -> None:
