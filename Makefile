@@ -29,7 +29,7 @@ endif
 .PHONY: gallery numbers results-page
 .PHONY: snakemake-report campaigns campaign-slurm coverage standins timings benchmark benchmark-large benchmark-pruning benchmark-shells
 .PHONY: benchmark-figures benchmark-commands benchmark-many-robots benchmark-recalibration
-.PHONY: environment clean ui-screenshot bad-inputs-page
+.PHONY: environment clean ui-screenshot bad-inputs-page faults-page
 
 # These targets, each with the first sentence of the comment above it.
 help:
@@ -187,6 +187,10 @@ timings: .venv/installed
 # docs/bad_inputs.md: what softkin answers to each bad input of the tests.
 bad-inputs-page: .venv/installed-dev
 	$(BIN)/python -m tools.bad_inputs_page
+
+# docs/faults.md: what happens after each fault of the tests.
+faults-page: .venv/installed-dev
+	$(BIN)/python -m tools.faults_page
 
 # docs/results.md, its gallery with it, from a finished run of the default configuration.
 results-page: .venv/installed

@@ -1,7 +1,6 @@
 # One run at a time in a folder, see src/softkin/cli/one_run.py; what a killed run has left is cleared before anything is
 # looked at, and results that are not as they were written are made anew. No rule of its own.
 import gc
-import json
 import shlex
 import sys
 import time
@@ -9,6 +8,7 @@ import time
 from softkin.campaigns.crate import write_crate
 from softkin.cli.one_run import OneRun, only_looks
 from softkin.cli.redo import redo_damaged
+from softkin.core.files import write_json
 
 # Snakemake (9.27.1) writes the interpreter into command lines as it is: with a blank in its path no script would start.
 sys.executable = shlex.quote(sys.executable)
@@ -39,8 +39,7 @@ def start_of_jobs():
     """Write how many jobs this run does."""
     gc.enable()
     STARTED.append(time.time())
-    JOBS.parent.mkdir(parents=True, exist_ok=True)
-    JOBS.write_text(json.dumps(counted_jobs()), encoding="utf-8")
+    write_json(JOBS, counted_jobs())
 
 
 def describe_results():

@@ -17,6 +17,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import Any
 
 from filelock import FileLock, Timeout
 
@@ -25,6 +26,7 @@ from softkin.cli.judging import Results, judge_results, log_failure
 from softkin.cli.notification import take_urls, tell
 from softkin.cli.workflow_process import Ended, run_workflow
 from softkin.core.errors import SoftkinError
+from softkin.core.explained import explained
 from softkin.core.files import read_json, write_json, write_text
 
 LOCK, HOLDER = "campaign.lock", "campaign.json"
@@ -57,7 +59,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         lock.acquire()
     except Timeout:
-        holder = read_json(results / HOLDER) if (results / HOLDER).exists() else {}
+        holder = _holder(results / HOLDER)
         who = f"process {holder.get('pid', 'unknown')} has run one since {holder.get('since', 'an unknown time')}"
         print(f"softkin: a campaign goes on in {asked.directory}: {who}.", file=sys.stderr)
         return EXIT_CODES[BUSY]
@@ -79,8 +81,19 @@ def _campaign(asked: Arguments, results: Path) -> Verdict:
     reasons = _reasons(ended, results, started) if ended.exit_code != 0 else []
     try:
         return log_failure(found, reasons) if reasons else judge_results(found, refit=asked.refit)
-    except SoftkinError as error:
-        return Verdict(FAILED, [*reasons, str(error)], facts=found.facts())
+    except Exception as error:  # of a store, say: the verdict's files tell it where no store can
+        known = error if isinstance(error, SoftkinError) else explained(error, ())
+        if known is None:
+            raise
+        return Verdict(FAILED, [*reasons, str(known)], facts=found.facts())
+
+
+def _holder(file: Path) -> dict[str, Any]:
+    """What is known of the campaign that goes on."""
+    try:
+        return dict(read_json(file)) if file.exists() else {}
+    except SoftkinError:
+        return {}
 
 
 def _command(asked: Arguments) -> list[str]:

@@ -16,7 +16,7 @@ from pathlib import Path
 import psutil
 from filelock import FileLock, Timeout
 
-from softkin.core.errors import ConfigError
+from softkin.core.errors import ConfigError, DataError
 from softkin.core.files import read_json, write_json
 
 #: The lock and what is known of who holds it, in the folder that Snakemake keeps its records in.
@@ -73,8 +73,11 @@ class OneRun:
     def holder(self) -> str:
         """Who holds the lock since when, in words."""
         file = self.lock_folder / HOLDER
-        known = read_json(file) if file.exists() else {"pid": "unknown", "since": "an unknown time"}
-        return f"process {known['pid']} since {known['since']}"
+        try:
+            known = dict(read_json(file)) if file.exists() else {}
+        except DataError:  # torn by the kill of a run before
+            known = {}
+        return f"process {known.get('pid', 'unknown')} since {known.get('since', 'an unknown time')}"
 
 
 def clear(folder: str | Path) -> list[str]:

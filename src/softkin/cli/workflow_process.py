@@ -16,7 +16,8 @@ from types import FrameType
 
 import psutil
 
-from softkin.core.files import read_json
+from softkin.core.errors import DataError
+from softkin.core.files import read_json, write_json
 
 #: Seconds that Snakemake and its jobs are given to end by themselves.
 GRACE = 15.0
@@ -51,7 +52,7 @@ def run_workflow(command: Sequence[str], *, directory: Path, results: Path, refi
         results: folder of its results.
         refit: put the studies aside, so that all of them start anew; they come back if the workflow fails.
     """
-    before = read_json(results / JOBS) if (results / JOBS).exists() else None
+    before = _counted(results)
     (results / JOBS).unlink(missing_ok=True)
     cpu, stopped = _children_cpu(), ""
     with _studies_aside(results) if refit else _nothing():
@@ -62,13 +63,20 @@ def run_workflow(command: Sequence[str], *, directory: Path, results: Path, refi
                 stopped, code = str(error), _end(process)
         if refit and code == 0:
             shutil.rmtree(_aside(results), ignore_errors=True)
-    counted = read_json(results / JOBS) if (results / JOBS).exists() else None
+    counted = _counted(results)
     everything = (counted or before or {}).get("all")
     jobs_run = counted["run"] if counted else 0
     if counted is None and before is not None:  # nothing to be done: what is known of the workflow stays known
-        (results / JOBS).parent.mkdir(parents=True, exist_ok=True)
-        (results / JOBS).write_text(f'{{"run": 0, "all": {before["all"]}}}', encoding="utf-8")
+        write_json(results / JOBS, {"run": 0, "all": before["all"]})
     return Ended(code, stopped, _children_cpu() - cpu, jobs_run, None if everything is None else everything - jobs_run)
+
+
+def _counted(results: Path) -> dict[str, int] | None:
+    """How many jobs a run does of how many; None where nobody wrote it, or was killed while writing."""
+    try:
+        return dict(read_json(results / JOBS)) or None if (results / JOBS).exists() else None
+    except DataError:
+        return None
 
 
 def _end(process: subprocess.Popen[bytes]) -> int:

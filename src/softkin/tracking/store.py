@@ -28,6 +28,7 @@ from softkin.core.files import read_json
 from softkin.core.urls import without_credentials
 from softkin.data.audit.findings import LEAK
 from softkin.tracking.artifacts import artifacts_beside, move_locations
+from softkin.tracking.open_store import check_file
 from softkin.tracking.server import check_answers
 
 logger = logging.getLogger("softkin")
@@ -81,11 +82,13 @@ def create_store(tracking_uri: str) -> None:
     """Create the MLflow store if there is none. One job does this before any other opens it: first use is a race.
 
     Raises:
-        StoreError: a server does not answer.
+        StoreError: there is one that cannot be used, or a server does not answer.
     """
     if tracking_uri.startswith(SQLITE):
         file = Path(tracking_uri.removeprefix(SQLITE)).resolve()
         with FileLock(f"{file}.lock"):
+            if file.exists() and (file.is_dir() or file.stat().st_size):  # an empty one becomes a store
+                check_file(file)
             MlflowClient(tracking_uri).search_experiments(max_results=1)
             connection = sqlite3.connect(file)
             connection.execute("PRAGMA journal_mode=WAL")
@@ -103,7 +106,7 @@ def client_of(tracking_uri: str) -> MlflowClient:
     where nobody named it. Locations of artifacts in a store that was moved or copied are corrected.
 
     Raises:
-        StoreError: the store is gone, or its server does not answer.
+        StoreError: the store is gone or cannot be used, or its server does not answer.
     """
     check_answers(tracking_uri)
     if tracking_uri.startswith(SQLITE):
@@ -114,6 +117,7 @@ def client_of(tracking_uri: str) -> MlflowClient:
                 where=without_credentials(tracking_uri),
                 fix="make it again from results/: make store",
             )
+        check_file(file)
         move_locations(file)
     mlflow.set_tracking_uri(tracking_uri)
     mlflow.set_registry_uri(tracking_uri)

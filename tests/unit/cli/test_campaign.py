@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from filelock import FileLock
+from mlflow.exceptions import MlflowException
 
+from softkin.campaigns.verdict import Verdict
 from softkin.cli import campaign
 from softkin.cli.workflow_process import Ended
 from softkin.core.errors import StoreError
-from softkin.core.files import read_json
+from softkin.core.files import read_json, write_json
 
 HOLD = """
 import sys, time
@@ -89,3 +94,57 @@ def test_a_tracking_server_that_is_gone_hides_no_other_reason(tmp_path: Path, mo
     first, second = read_json(tmp_path / "results" / "verdict.json")["reasons"]
     assert first.startswith("The workflow ended with exit code 1")
     assert "the tracking server does not answer" in second
+
+
+def test_a_torn_note_of_who_holds_the_lock_is_no_traceback(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "results").mkdir()
+    (tmp_path / "results" / campaign.HOLDER).write_text('{"pid": 7, "si')
+    with FileLock(tmp_path / "results" / campaign.LOCK):
+        assert campaign.main(["--directory", str(tmp_path)]) == 75
+    assert "process unknown has run one since an unknown time" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("code", [0, 1])
+def test_a_store_that_cannot_be_used_is_a_verdict(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, code: int) -> None:
+    """Whether the workflow went well or not: it says why, and what the jobs said comes first."""
+    monkeypatch.setattr(campaign, "run_workflow", lambda *_, **__: ended(code))
+    (tmp_path / "results" / "tables").mkdir(parents=True)
+    write_json(tmp_path / "results" / "tables" / "summary.json", {})
+    write_json(tmp_path / "results" / "mlflow_store.json", {"tracking_uri": "sqlite:///mlflow.db"})
+    (tmp_path / "mlflow.db").write_text("a note of mine\n" * 100)
+    assert campaign.main(["--directory", str(tmp_path)]) == 1
+    reasons = read_json(tmp_path / "results" / "verdict.json")["reasons"]
+    assert "mlflow.db: this file is no database" in reasons[-1]
+    assert len(reasons) == 1 + code
+
+
+def test_an_error_of_mlflow_is_a_verdict_and_a_defect_is_not(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def raising(error: Exception) -> Callable[..., Verdict]:
+        def judge(*_: object, **__: object) -> Verdict:
+            raise error
+
+        return judge
+
+    monkeypatch.setattr(campaign, "run_workflow", lambda *_, **__: ended(0))
+    monkeypatch.setattr(campaign, "judge_results", raising(MlflowException("API request failed")))
+    assert campaign.main(["--directory", str(tmp_path)]) == 1
+    (reason,) = read_json(tmp_path / "results" / "verdict.json")["reasons"]
+    assert reason.startswith("the MLflow store: mlflow says: API request failed")
+    monkeypatch.setattr(campaign, "judge_results", raising(ZeroDivisionError()))
+    with pytest.raises(ZeroDivisionError):
+        campaign.main(["--directory", str(tmp_path)])
+
+
+def test_a_clock_that_was_set_back_takes_no_reason_away(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The logs of jobs are then older than the campaign."""
+
+    def failing(*_: object, results: Path, **__: object) -> Ended:
+        log = results / "logs" / "prepare.log"
+        log.parent.mkdir(parents=True)
+        log.write_text("2026-11-26 02:00:01,000 ERROR finger.csv: column u1 is missing\n")
+        os.utime(log, (0, 0))
+        return ended()
+
+    monkeypatch.setattr(campaign, "run_workflow", failing)
+    assert campaign.main(["--directory", str(tmp_path)]) == 1
+    assert "results/logs and .snakemake/log say more" in read_json(tmp_path / "results" / "verdict.json")["reasons"][-1]

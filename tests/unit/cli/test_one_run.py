@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 import time
@@ -112,4 +113,14 @@ def test_the_lock_is_no_business_of_children(tmp_path: Path) -> None:
     take = TAKE.replace("time.sleep(60)", "import subprocess; subprocess.Popen(['sleep', '5']); sys.exit()")
     done = subprocess.run([sys.executable, "-c", take, str(tmp_path)], capture_output=True, check=False, timeout=60)
     assert done.returncode == 0, done.stderr
+    assert OneRun.of(tmp_path).take(patience=0.1) == []
+
+
+@pytest.mark.parametrize("note", ['{"pid": 7, "since": "2999-01-01T00:00:00+00:00"}', '{"pid": 7, "si', ""])
+def test_what_a_killed_run_noted_of_itself_holds_nobody_up(tmp_path: Path, note: str) -> None:
+    """Neither a torn note, nor one of a clock that ran ahead."""
+    (tmp_path / ".snakemake").mkdir()
+    (tmp_path / ".snakemake" / "softkin_run.json").write_text(note)
+    (tmp_path / ".snakemake" / "softkin.lock").touch()
+    os.utime(tmp_path / ".snakemake" / "softkin.lock", (2**33, 2**33))
     assert OneRun.of(tmp_path).take(patience=0.1) == []

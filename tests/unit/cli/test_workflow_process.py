@@ -81,3 +81,11 @@ def test_studies_start_anew_and_come_back_where_the_workflow_fails(code: str, le
     run_workflow(command(write), directory=tmp_path, results=tmp_path / "results", refit=True)
     assert (studies / "lr.journal").read_text() == left
     assert [path.name for path in studies.parent.iterdir() if path.name.startswith("studies")] == ["studies"]
+
+
+@pytest.mark.parametrize("torn", ["", '{"run": 3, "al', "[]"])
+def test_a_count_that_was_torn_by_a_kill_is_unknown(tmp_path: Path, torn: str) -> None:
+    (tmp_path / "results" / "logs").mkdir(parents=True)
+    (tmp_path / "results" / "logs" / "jobs.json").write_text(torn)
+    ended = run_workflow(command("pass"), directory=tmp_path, results=tmp_path / "results", refit=False)
+    assert (ended.exit_code, ended.jobs_run, ended.jobs_reused) == (0, 0, None)

@@ -150,3 +150,17 @@ def test_a_record_takes_little_time(results: Path) -> None:
     start = time.process_time()
     record_job(LOG, [MODEL, MODEL.parent / "fit.json", FIGURES])
     assert time.process_time() - start < 0.05
+
+
+@pytest.mark.parametrize("years", [-50, 50])
+def test_clocks_that_jump_and_files_dated_in_the_future_are_no_damage(results: Path, years: int) -> None:
+    """A file is what its content is; a wrong date is a reason to read it, and no more."""
+    at = time.time() + years * 365 * 86400
+    for path in results.rglob("*"):
+        if path.is_file():
+            os.utime(path, (at, at))
+    assert found(results) == []
+    assert found(results) == []
+    MODEL.write_bytes(MODEL.read_bytes() + b"\0")
+    os.utime(MODEL, (at, at))
+    assert [one[1] for one in found(results)] == ["changed"]
