@@ -89,7 +89,8 @@ def test_a_leak_is_named_as_the_audit_found_it() -> None:
     assert many.count("arm: warning.") == 4
     assert "arm: 5 more findings in its data card." in many
     assert "arm: 2 findings in its data card." in headline(SELECTED, scores(0.5, 1.25), CHOICE, [], {"arm": [note] * 2})
-    for nothing in ({}, {"arm": []}, None):
+    none: list[dict[str, list[dict[str, str]]] | None] = [{}, {"arm": []}, None]
+    for nothing in none:
         assert "audit" not in headline(SELECTED, scores(0.5, 1.25), CHOICE, [], nothing)
 
 
