@@ -13,6 +13,7 @@ from softkin.core.urls import without_credentials
 from softkin.data.readers import READERS
 from softkin.data.reachability import out_of_reach, warning, with_stand_ins
 from softkin.data.split import has_standardised_norm
+from softkin.data.standins import STANDINS
 from softkin.models import MODELS
 from softkin.models.quantile import QUANTILE_MODELS
 from softkin.uncertainty.intervals import INTERVAL_METHODS
