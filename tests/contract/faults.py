@@ -170,11 +170,6 @@ FAULTS: dict[str, list[Fault]] = {
             f"{_RECORDS}::test_a_record_that_is_none_records_nothing",
         ),
         Fault(
-            "a manifest is damaged or a file of it is gone",
-            "deleted, and made anew",
-            "unit/core/test_manifest.py::test_it_is_deleted_where_it_is_damaged",
-        ),
-        Fault(
             "a number in a table was edited",
             "`make verify` names it",
             "unit/cli/test_recompute.py::test_one_edited_number_is_named",

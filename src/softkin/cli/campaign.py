@@ -57,17 +57,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     results.mkdir(parents=True, exist_ok=True)
     lock = FileLock(results / LOCK, timeout=0)
     try:
-        lock.acquire()
+        taken = lock.acquire()
     except Timeout:
         holder = _holder(results / HOLDER)
         who = f"process {holder.get('pid', 'unknown')} has run one since {holder.get('since', 'an unknown time')}"
         print(f"softkin: a campaign goes on in {asked.directory}: {who}.", file=sys.stderr)
         return EXIT_CODES[BUSY]
-    write_json(results / HOLDER, {"pid": os.getpid(), "since": datetime.now(UTC).isoformat(timespec="seconds")})
-    with lock:
+    with taken:
+        write_json(results / HOLDER, {"pid": os.getpid(), "since": datetime.now(UTC).isoformat(timespec="seconds")})
         verdict = _campaign(asked, results)
-    write_json(results / "verdict.json", verdict.as_dict())
-    write_text(results / "verdict.md", verdict.as_markdown())
+        write_json(results / "verdict.json", verdict.as_dict())
+        write_text(results / "verdict.md", verdict.as_markdown())
     print(verdict.as_markdown())
     tell(verdict, command=asked.notify, urls=urls)
     return verdict.exit_code

@@ -29,7 +29,7 @@ def check_file(file: Path, patience: float = LOCKED) -> None:
     if not file.is_file():
         raise StoreError("a folder stands where the MLflow store should be", where=file, fix=OTHER)
     if not os.access(file, os.R_OK | os.W_OK):
-        fix = f"let it be read and written: chmod u+rw '{file}'; results that are finished are kept"
+        fix = f"give the right to read and write it, by chmod u+rw '{file}'; results that are finished are kept"
         raise StoreError("the MLflow store may not be read and written", where=file, fix=fix)
     try:
         with closing(sqlite3.connect(file, timeout=patience, isolation_level=None)) as connection:
@@ -39,6 +39,7 @@ def check_file(file: Path, patience: float = LOCKED) -> None:
                 raise StoreError(f"this database is no MLflow store; it holds {held}", where=file, fix=OTHER)
             _check_version(file, connection.execute("SELECT version_num FROM alembic_version").fetchone())
             connection.execute("BEGIN IMMEDIATE")
+            connection.execute("UPDATE alembic_version SET version_num = version_num")
             connection.execute("ROLLBACK")
     except sqlite3.Error as error:
         raise _refused(file, error, patience) from error
@@ -83,7 +84,7 @@ def _refused(file: Path, error: sqlite3.Error, patience: float) -> StoreError:
         return StoreError(
             "the MLflow store may not be written",
             where=file,
-            fix=f"let it and its folder be written: chmod u+rw '{file}'; results that are finished are kept",
+            fix=f"give the right to write it and its folder, by chmod u+rw '{file}'; results that are finished are kept",
         )
     if "not a database" in said:
         return StoreError("this file is no database", where=file, fix=OTHER)
