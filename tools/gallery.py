@@ -34,6 +34,7 @@ BEGIN, END = "<!-- gallery: written by `make gallery` -->", "<!-- end of gallery
 #: (folder in results/, figure) of each picture; the first leads the README as well.
 PICTURES = (
     ("finger", "robot"),
+    ("finger_recorded", "time"),
     ("finger", "workspace_predictions"),
     ("finger", "ranking"),
     ("abaqus", "position_curves"),
