@@ -22,9 +22,13 @@ from tools.finished_run import FinishedRun
 from tools.gallery import BEGIN, END
 from tools.results_intervals import intervals_in_domain, intervals_in_extrapolation
 from tools.results_points import data, points_in_extrapolation, printed_cells
+from tools.results_recorded import robots_in_time
 
 TEMPLATE = Path(__file__).with_name("results_page.md.j2")
-SECTIONS = (data, printed_cells, points_in_extrapolation, intervals_in_domain, intervals_in_extrapolation)
+SECTIONS = (
+    *(data, printed_cells, points_in_extrapolation),
+    *(intervals_in_domain, intervals_in_extrapolation, robots_in_time),
+)
 MAX_WIDTH = 120
 
 

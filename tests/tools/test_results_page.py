@@ -3,6 +3,7 @@ from __future__ import annotations
 import re
 import sys
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 import pytest
@@ -51,6 +52,33 @@ def test_numbers_of_the_page_are_those_of_the_tables(page: str) -> None:
         f"| {TITLES.models['lr']} | 0.500 | 0.500 |",
     ):
         assert row in page, row
+
+
+def test_robots_in_time_have_a_section_of_their_own(results: Path, page: str) -> None:
+    assert "## In time" not in page
+    recorded: dict[str, Any] = {"dataset": "finger", "split": "next_session", "model": "gp", "preset": "tuned"}
+    recorded |= {
+        "memory": "play",
+        "subset": "2 after 1",
+        "method": "recalibrated",
+        "rmse_mm": 0.5,
+        "mae_mm": 0.25,
+        "coverage": 0.9,
+    }
+    recorded |= {"mean_width_mm": 2.0, "winkler_mm": 3.0, "n_recalibration_poses": 5, "leak": False}
+    pd.DataFrame([recorded]).to_csv(results / "tables" / "recorded.csv", index=False)
+    claim = {
+        "claim": "no memory",
+        "source": "the paper",
+        "dataset": "finger",
+        "verdict": "does not hold",
+        "numbers": "1",
+    }
+    pd.DataFrame([claim]).to_csv(results / "tables" / "claims.csv", index=False)
+    make_results_page(results, results.parent / "results.md")
+    page = (results.parent / "results.md").read_text()
+    assert "| FINGER | next session | 2 after 1 | play | recalibrated | 5 | 0.500 / 0.250 | 90.0 % | 2.00 |" in page
+    assert '*FINGER*: "no memory" (the paper) **does not hold**: 1.' in page
 
 
 def test_intervals_stand_beside_the_papers_recipe_and_say_their_role(page: str) -> None:
