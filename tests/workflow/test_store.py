@@ -49,12 +49,15 @@ def content(work: Path) -> dict[str, Any]:
     """All that the store shows, apart from ids and times."""
     client = MlflowClient(f"sqlite:///{work / 'mlflow.db'}")
     shown: dict[str, Any] = {}
-    for experiment in client.search_experiments():
+    experiments = client.search_experiments()
+    everything = client.search_runs([one.experiment_id for one in experiments], max_results=1000)
+    keys = {run.info.run_id: run.data.tags[KEY] for run in everything}
+    for experiment in experiments:
         runs = client.search_runs([experiment.experiment_id], max_results=1000)
-        keys = {run.info.run_id: run.data.tags[KEY] for run in runs}
         shown[experiment.name] = experiment.tags
         for run in runs:
-            tags = run.data.tags | {PARENT: keys.get(run.data.tags.get(PARENT))}
+            ids = {name: keys.get(run.data.tags.get(name)) for name in (PARENT, "runs_of_its_dataset")}
+            tags = run.data.tags | ids
             curves = {name for name in run.data.metrics if name.startswith("trials/")}
             shown[run.data.tags[KEY]] = {
                 "name": (run.info.run_name, run.info.status),
