@@ -33,6 +33,7 @@ include: "workflow/rules/track.smk"
 include: "workflow/rules/local.smk"
 include: "workflow/rules/watch.smk"
 include: "workflow/rules/final_screen.smk"
+include: "workflow/rules/partial_tables.smk"
 
 
 rule all:
@@ -56,3 +57,4 @@ onsuccess:
 onerror:
     stop_watching()
     warn_of_stand_ins()
+    plan_partial_tables()

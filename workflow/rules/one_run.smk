@@ -1,12 +1,14 @@
 # One run at a time in a folder, see src/softkin/cli/one_run.py; what a killed run has left is cleared before anything is
 # looked at, and results that are not as they were written are made anew. No rule of its own.
 import gc
+import os
 import shlex
 import sys
 import time
 
 from softkin.campaigns.crate import write_crate
 from softkin.cli.one_run import OneRun, only_looks
+from softkin.cli.partial_tables import PARTIAL
 from softkin.cli.redo import redo_damaged
 from softkin.core.files import write_json
 
@@ -39,7 +41,8 @@ def start_of_jobs():
     """Write how many jobs this run does."""
     gc.enable()
     STARTED.append(time.time())
-    write_json(JOBS, counted_jobs())
+    if PARTIAL not in os.environ:  # those of the run that failed count
+        write_json(JOBS, counted_jobs())
 
 
 def describe_results():
