@@ -44,5 +44,7 @@ def make_partial_tables(missing, complete, folder):
         flush=True,
     )
     command = [shlex.split(sys.executable)[0], "-m", "snakemake"]
-    command += ["--snakefile", str(workflow.main_snakefile), "--directory", str(folder)]
+    command += ["--snakefile", str(workflow.main_snakefile)]
+    if workflow.overwrite_workdir:  # else paths are shown as they are from here
+        command += ["--directory", str(folder)]
     run_without(missing, complete, config, command=command, report=REPORT)

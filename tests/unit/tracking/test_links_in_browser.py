@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import shutil
 import signal
@@ -30,9 +31,10 @@ CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", 
 pytestmark = [
     pytest.mark.skipif(CHROMIUM is None, reason="no Chromium is installed"),
     pytest.mark.slow,  # MLflow's server takes a quarter of a minute to start
+    pytest.mark.timeout(900),
 ]
 #: Milliseconds that a page is waited for.
-PATIENCE = 120_000
+PATIENCE = 240_000
 #: Title of a link -> a run that its page shows.
 SHOWN = {
     "campaigns": "nightly · 1970-01-01 00:00",
@@ -78,8 +80,8 @@ def served(folder: Path) -> Iterator[dict[str, str]]:
                 time.sleep(0.5)
         yield dict(re.findall(r"^  (\S.*?)  +(http\S+)$", output.read_text(), re.MULTILINE))
     finally:
-        process.send_signal(signal.SIGINT)
-        process.wait(30)
+        os.killpg(process.pid, signal.SIGINT)  # as Ctrl-C does
+        process.wait(60)
 
 
 def test_each_link_shows_runs_in_a_table(folder: Path) -> None:
