@@ -39,7 +39,7 @@ PATIENCE = 240_000
 SHOWN = {
     "campaigns": "nightly · 1970-01-01 00:00",
     "calibrated models": "finger · gp · tuned",
-    "nights as curves": "nightly",
+    "nights as curves": "nightly · nights",
     "finger": "finger · svr · tuned",
 }
 
