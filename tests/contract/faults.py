@@ -303,6 +303,11 @@ FAULTS: dict[str, list[Fault]] = {
             f"{_MODELS}::test_a_run_cut_off_before_its_end_is_removed_and_made_again",
         ),
         Fault(
+            "a calibrated model was cut off before it was registered",
+            "removed and made again",
+            "unit/tracking/test_champion.py::test_a_model_that_was_cut_off_is_removed_and_made_again",
+        ),
+        Fault(
             "a logged model was cut off",
             "removed with its run",
             "unit/tracking/test_records.py::test_a_run_that_was_cut_off_is_swept_with_its_logged_model",

@@ -10,6 +10,7 @@ import hashlib
 import json
 import logging
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,7 @@ import mlflow.pyfunc
 import pandas as pd
 from mlflow import MlflowClient
 from mlflow.entities import LoggedModelOutput
+from mlflow.entities.model_registry import ModelVersion
 from mlflow.exceptions import MlflowException
 from mlflow.models import Model, ModelSignature
 from mlflow.types import ColSpec, ParamSchema, ParamSpec, Schema
@@ -143,7 +145,8 @@ def _version(
 ) -> str:
     """The version with this content, registered where there is none; it is the candidate."""
     content = hashlib.sha256(json.dumps([record.key, record.content], sort_keys=True).encode()).hexdigest()
-    versions = all_pages(client.search_model_versions, f"name = '{name}'")
+    versions = list(all_pages(client.search_model_versions, f"name = '{name}'"))
+    _sweep_models(client, client.get_run(run_id).info.experiment_id, name, versions)
     same = [version for version in versions if version.tags.get(CONTENT) == content]
     if same:
         version = str(same[0].version)
@@ -165,6 +168,15 @@ def _version(
         logger.info("registered %s, version %s", name, version)
     nominate(client, name, version)
     return version
+
+
+def _sweep_models(client: MlflowClient, experiment: str, name: str, versions: Sequence[ModelVersion]) -> None:
+    """Delete the logged models of a name that no version has: a process was killed before it registered them."""
+    used = {version.source for version in versions}
+    for model in all_pages(client.search_logged_models, [experiment], f"name = '{name}'"):
+        if f"models:/{model.model_id}" not in used:
+            client.delete_logged_model(model.model_id)
+            logger.info("removed a model from the store that had been cut off while it was logged")
 
 
 def _log_model(

@@ -14,6 +14,7 @@ import mlflow.pyfunc
 import numpy as np
 import pandas as pd
 import pytest
+from mlflow import MlflowClient
 from mlflow.exceptions import MlflowException
 
 from softkin.core.distributions import installed
@@ -102,6 +103,28 @@ def test_the_same_content_is_no_new_version(campaign: Campaign, files: dict[str,
     client = client_of_store(campaign)
     (version,) = client.search_model_versions(f"name = '{NAME}'")
     assert client.get_run(version.run_id).data.tags["runs_of_its_dataset"] == "the-campaign"
+
+
+@pytest.mark.parametrize("call", ["log_model_artifacts", "finalize_logged_model", "create_model_version"])
+def test_a_model_that_was_cut_off_is_removed_and_made_again(
+    campaign: Campaign, files: dict[str, Any], monkeypatch: pytest.MonkeyPatch, call: str
+) -> None:
+    """Killed before it is there, before it is said to be there, and before it is registered."""
+
+    def killed(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as context:
+        context.setattr(MlflowClient, call, killed)
+        with pytest.raises(KeyboardInterrupt):
+            log_champion(campaign, **files)
+    assert log_champion(campaign, **files) == "1"
+    client = client_of_store(campaign)
+    (version,) = client.search_model_versions(f"name = '{NAME}'")
+    experiment = client.get_run(version.run_id).info.experiment_id
+    (model,) = client.search_logged_models([experiment])
+    assert f"models:/{model.model_id}" == version.source
+    assert str(model.status) == "READY"
 
 
 @pytest.mark.parametrize(
