@@ -24,7 +24,7 @@ from softkin.evaluation.score_recorded import RecordedRun, in_time, next_session
 from softkin.models import MODELS
 from softkin.training.kinematic_model import STATIC, FitSettings, fitted_model
 from softkin.uncertainty.alarm import Watch
-from softkin.uncertainty.calibrated_model import FittedModel, calibrated
+from softkin.uncertainty.calibrated import FittedModel, calibrated
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from tests.recorded_robot import recorded_arm
 

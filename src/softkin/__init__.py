@@ -11,12 +11,17 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from softkin.core.errors import SoftkinError
     from softkin.uncertainty.calibrated_model import CalibratedModel
+    from softkin.uncertainty.loading import load
 
-__all__ = ["CalibratedModel", "SoftkinError", "__version__"]
+__all__ = ["CalibratedModel", "SoftkinError", "__version__", "load"]
 __version__ = "0.1.0"
 
 #: Public name -> the module that defines it.
-_MODULES = {"CalibratedModel": "softkin.uncertainty.calibrated_model", "SoftkinError": "softkin.core.errors"}
+_MODULES = {
+    "CalibratedModel": "softkin.uncertainty.calibrated_model",
+    "SoftkinError": "softkin.core.errors",
+    "load": "softkin.uncertainty.loading",
+}
 
 if not TYPE_CHECKING:  # a type checker would accept any attribute
 

@@ -9,12 +9,14 @@ import pytest
 import softkin
 from softkin.core.errors import SoftkinError
 from softkin.uncertainty.calibrated_model import CalibratedModel
+from softkin.uncertainty.loading import load
 
 
 def test_public_names_are_those_of_their_modules() -> None:
     assert softkin.CalibratedModel is CalibratedModel
     assert softkin.SoftkinError is SoftkinError
-    assert set(softkin.__all__) == {"CalibratedModel", "SoftkinError", "__version__"}
+    assert softkin.load is load
+    assert set(softkin.__all__) == {"CalibratedModel", "SoftkinError", "__version__", "load"}
     with pytest.raises(AttributeError, match="module 'softkin' has no attribute 'Nonsense'"):
         _ = softkin.Nonsense  # type: ignore[attr-defined]
 

@@ -16,7 +16,7 @@ from softkin.core.runs import Run
 from softkin.core.samples import TRAIN, VALIDATION
 from softkin.data.table import read_subset
 from softkin.models.spec import ModelSpec
-from softkin.uncertainty.calibrated_model import FittedModel, calibrated
+from softkin.uncertainty.calibrated import FittedModel, calibrated
 from softkin.uncertainty.choose import deployed_choice
 from softkin.uncertainty.intervals.spec import AUTO, IntervalMethod
 from softkin.uncertainty.stored_outputs import norm_of, shells_of

@@ -2,33 +2,43 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, fields, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 
-from softkin.core.errors import DataError
-from softkin.core.samples import Array, Samples, coordinate_columns, informative_coordinates
+from softkin.core.errors import DataError, ResultError
+from softkin.core.samples import Array, Samples, informative_coordinates
 from softkin.core.shells import command_norm
 from softkin.models.spec import ModelSpec
 from softkin.training.predict import spread_of
+from softkin.uncertainty import calls
 from softkin.uncertainty.alarm import Watch
+from softkin.uncertainty.answers import bounds_frame, like
 from softkin.uncertainty.calibration_data import PointCalibration, Shell, ShellCalibration, SpreadCalibration
-from softkin.uncertainty.conformal import around, conformal_limit, error_scale, joint_scores, p_values
-from softkin.uncertainty.control_loop import State, checked_rows
+from softkin.uncertainty.conformal import around, conformal_limit, joint_scores, p_values
+from softkin.uncertainty.control_loop import State
+from softkin.uncertainty.described import described
 from softkin.uncertainty.intervals import in_domain_and_extrapolation
 from softkin.uncertainty.intervals.spec import IntervalMethod
 from softkin.uncertainty.new_session import widened, zero_spread
 from softkin.uncertainty.recalibration import Recalibration, recalibration
 
+#: Of the file: raised by one when what is in it changes. A file of another format is refused.
+FORMAT = 2
 
-@dataclass(frozen=True, slots=True)
+
+@dataclass(frozen=True, repr=False)
 class CalibratedModel:
     """Positions, intervals, joint regions and p-values at any commands (n_rows, n_commands), in mm.
 
-    A run of the workflow writes one per dataset: `joblib.load("results/finger/calibrated_model.joblib")`. Coverage is
+    Commands may be an array, lists, one row, or a DataFrame with the robot's own column names in any order; answers are
+    arrays, or DataFrames for a DataFrame.
+    A run of the workflow writes one per dataset: `softkin.load("results/finger/calibrated_model.joblib")`. Coverage is
     guaranteed for commands exchangeable with those of the calibration set. In extrapolation nothing is guaranteed;
     with `shells`, intervals there are calibrated on the errors of the same model beyond cores of `train`.
 
@@ -38,7 +48,7 @@ class CalibratedModel:
         >>> from softkin.core.samples import Samples
         >>> from softkin.models import MODELS
         >>> from softkin.training.kinematic_model import FitSettings, fitted_model
-        >>> from softkin.uncertainty.calibrated_model import FittedModel, calibrated
+        >>> from softkin.uncertainty.calibrated import FittedModel, calibrated
         >>> from softkin.uncertainty.intervals import INTERVAL_METHODS
         >>> commands = np.random.default_rng(0).uniform(-1, 1, (200, 2))
         >>> poses = np.column_stack([40 * commands, 100 - 5 * (commands**2).sum(axis=1)])  # x, y, z in mm
@@ -50,7 +60,7 @@ class CalibratedModel:
         (3, 3)
         >>> robot.intervals(commands[:3], [0.8, 0.9]).shape  # nominal levels, rows, coordinates, lower and upper
         (2, 3, 3, 2)
-        >>> lower, upper = robot.intervals(np.array([0.5, -0.5]), [0.9])[0, 0, 2]
+        >>> lower, upper = robot.intervals([0.5, -0.5], 0.9)[0, 2]
         >>> print(f"z at this command: {lower:.1f} to {upper:.1f} mm")
         z at this command: 92.8 to 99.7 mm
     """
@@ -71,25 +81,27 @@ class CalibratedModel:
     norm: Callable[[Array], Array] | None = None
     #: What a few labelled poses of a new session changed.
     recalibration: Recalibration | None = None
+    #: What else is known: `data`, the hash of `train`; `columns`, the robot's own names; `date`, of the file.
+    about: Mapping[str, Any] = field(default_factory=dict)
 
-    def predict(self, commands: Array) -> Array:
+    def predict(self, commands: calls.Rows) -> Array | pd.DataFrame:
         """Predicted positions (n_rows, n_coordinates).
 
         A robot that remembers is taken to be sent each command from rest, in a session never seen: `follow` takes a
-        sequence, `start` a control loop. Rows may also be `Samples.inputs` of a recording.
+        sequence, `start` a control loop. calls.Rows may also be `Samples.inputs` of a recording.
         """
-        predicted = np.asarray(self.estimator.predict(self._checked(commands)))
-        return predicted if self.recalibration is None else predicted + self.recalibration.zero
+        return like(commands, self._predicted(self._checked(commands)), self._names.coordinates)
 
-    def follow(self, commands: Array, session: int | None = None) -> Array:
+    def follow(self, commands: calls.Rows, session: int | None = None) -> Array | pd.DataFrame:
         """Predicted positions (n_rows, n_coordinates) of commands sent one after the other, from rest."""
-        return self.predict(State(self, session).inputs(self._checked(commands)))
+        inputs = State(self, session).inputs(self._checked(commands))
+        return like(commands, self._predicted(inputs), self._names.coordinates)
 
     def start(self, session: int | None = None, confidence_level: float = 0.9) -> State:
         """The state of the robot at rest: `state.step(command)` gives position, lower and upper bound in a loop."""
-        return State(self, session, confidence_level)
+        return State(self, session, calls.level_of(confidence_level, self.dataset))
 
-    def recalibrate(self, commands: Array, positions: Array) -> CalibratedModel:
+    def recalibrate(self, commands: calls.Rows, positions: calls.Rows) -> CalibratedModel:
         """The calibrated model of a new session, of 1 to 50 labelled poses: commands in the order in which they were
         sent since it began (or `Samples.inputs`), positions (n_rows, n_coordinates) in mm. Its `recalibration.card()`
         says what changed.
@@ -108,14 +120,15 @@ class CalibratedModel:
                 fix="label poses at commands like those of `train`",
             )
         bare = replace(self, recalibration=None)
-        errors = np.atleast_2d(np.asarray(positions, dtype=np.float64)) - bare.predict(inputs)
+        errors = calls.position_rows(positions, self._names, len(inputs), self.dataset) - bare.predict(inputs)
         spread = zero_spread(self.estimator)
         found = recalibration(bare._residuals(), errors, self._moving(), spread, self.dataset)
         return replace(self, recalibration=found)
 
     def watch(self, rate: float = 0.01, session: int | None = None, seed: int = 0) -> Watch:
         """An alarm fed pose by pose, from rest: `watch.see(command, position)`."""
-        state, names = State(self, session), coordinate_columns(self.known.truth.shape[1] // 3)
+        rate = calls.level_of(rate, self.dataset, "rate of false alarms")
+        state, names = State(self, session), self._names.coordinates
         moving = self._moving()
         return Watch(
             self._residuals()[:, moving],
@@ -125,59 +138,95 @@ class CalibratedModel:
             lambda command, position: (position - self.predict(state.inputs(command[None]))[0])[moving],
         )
 
-    def intervals(self, commands: Array, confidence_levels: Sequence[float], predicted: Array | None = None) -> Array:
-        """Intervals (n_levels, n_rows, n_coordinates, 2) of each coordinate; levels ascending. `predicted` is what
-        `predict` says of the commands, where it is known.
+    def intervals(
+        self, commands: calls.Rows, confidence_levels: float | Sequence[float] | Array, predicted: Array | None = None
+    ) -> Array | pd.DataFrame:
+        """Intervals of each coordinate, (n_levels, n_rows, n_coordinates, 2), levels in the order given; of one number
+        (n_rows, n_coordinates, 2). A DataFrame has columns lower_m1_x, upper_m1_x, ..., of several levels below each
+        level. `predicted` is what `predict` says of the commands, where it is known.
 
         In-domain they are those of the deployed method. In extrapolation, given shells, they are never narrower than
         those of split conformal prediction, nor than those of the deployed method if it is calibrated on a spread.
         """
-        inputs = self._checked(commands)
-        data = replace(
-            self.known,
-            new=self.predict(inputs) if predicted is None else predicted,
-            new_commands=self._commands(inputs),
-        )
-        if self.recalibration is not None:
-            halves = self.recalibration.half_widths(self._residuals(), confidence_levels)
-            bounds = around(data.new[None], halves)
-        else:
-            if isinstance(data, SpreadCalibration):
-                data = replace(data, new_spread=spread_of(self.spec, self.estimator, self.train, inputs))
-            bounds = self.method.intervals(data, confidence_levels)
-            bounds = widened(bounds, data.new, self.estimator, inputs, confidence_levels)
-        if self.norm is None:
-            return bounds
-        shells = ShellCalibration(data, self.shells, self.norm, bounds, self.method.calibrated_on.has_spread)
-        return in_domain_and_extrapolation.intervals(shells, confidence_levels)
+        inputs, (levels, is_one) = self._checked(commands), calls.levels_of(confidence_levels, self.dataset)
+        if predicted is not None:
+            predicted = calls.position_rows(predicted, self._names, len(inputs), f"{self.dataset}, predicted")
+        ascending = sorted(set(levels))
+        bounds = self._bounds(inputs, ascending, self._predicted(inputs) if predicted is None else predicted)
+        if levels != ascending:
+            bounds = bounds[[ascending.index(level) for level in levels]]
+        if isinstance(commands, (pd.DataFrame, pd.Series)):
+            return bounds_frame(commands, bounds, None if is_one else levels, self._names.coordinates)
+        return bounds[0] if is_one else bounds
 
-    def is_outside(self, commands: Array) -> NDArray[np.bool_]:
+    def is_outside(self, commands: calls.Rows) -> NDArray[np.bool_] | pd.Series:
         """Which commands (n_rows,) lie in extrapolation, where nothing is guaranteed."""
-        commands = self._commands(self._checked(commands))
+        rows = self._commands(self._checked(commands))
         norm = self.norm or command_norm(self.train.commands, standardised=True).of
-        known = replace(self.known, new_commands=commands)
-        return in_domain_and_extrapolation.is_in_extrapolation(ShellCalibration(known, self.shells, norm))
+        known = replace(self.known, new_commands=rows)
+        outside = in_domain_and_extrapolation.is_in_extrapolation(ShellCalibration(known, self.shells, norm))
+        return like(commands, outside, "outside")
 
     def box(self, confidence_level: float) -> Array:
         """Half-widths (n_coordinates,) in mm of the joint box around a predicted pose that holds all moving
         coordinates at once; 0 for constant coordinates.
         """
         half = np.zeros(self.known.truth.shape[1])
-        half[self._moving()] = self.scale * conformal_limit(self._scores(self._residuals()), confidence_level)
+        level = calls.level_of(confidence_level, self.dataset)
+        half[self._moving()] = self.scale * conformal_limit(self._scores(self._residuals()), level)
         return half
 
     def p_values(
-        self, commands: Array, positions: Array, *, rng: np.random.Generator | None = None
-    ) -> tuple[Array, Array]:
-        """p-values of measured `positions` (n_rows, n_coordinates): of each coordinate (n_rows, n_coordinates) and of
-        the whole pose (n_rows,).
+        self, commands: calls.Rows, positions: calls.Rows, *, rng: np.random.Generator | None = None
+    ) -> tuple[Array | pd.DataFrame, Array | pd.Series]:
+        """p-values of measured `positions` (n_rows, n_coordinates) in mm: of each coordinate (n_rows, n_coordinates)
+        and of the whole pose (n_rows,). In a DataFrame, positions by the robot's own names are in its own unit.
 
         The paper's Eq. 4; with `rng` smoothed. Calling a pose anomalous when its p-value is at most alpha raises a
         false alarm in at most a share alpha of cases.
         """
-        known, new = self._residuals(), positions - self.predict(commands)
+        inputs = self._checked(commands)
+        calls.check_generator(rng, self.dataset)
+        calls.check_same_rows(commands, positions, self.dataset)
+        measured = calls.position_rows(positions, self._names, len(inputs), self.dataset)
+        known, new = self._residuals(), measured - self._predicted(inputs)
         single = p_values(np.abs(known), np.abs(new), rng=rng)
-        return single, p_values(self._scores(known), self._scores(new), rng=rng)
+        joint = p_values(self._scores(known), self._scores(new), rng=rng)
+        return like(commands, single, self._names.coordinates), like(commands, joint, "pose")
+
+    def __repr__(self) -> str:
+        return described(self)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {"format": FORMAT} | {one.name: getattr(self, one.name) for one in fields(self)}
+
+    def __setstate__(self, state: Any) -> None:
+        number = state.get("format", 1) if isinstance(state, dict) else 1
+        if number != FORMAT:
+            raise ResultError(
+                f"a calibrated model of format {number}, where this version of softkin reads {FORMAT}",
+                fix="run the workflow again with this version, or use the version that wrote it",
+            )
+        self.__dict__.update({one.name: state[one.name] for one in fields(self)})
+
+    def _predicted(self, inputs: Array) -> Array:
+        """Positions (n_rows, n_coordinates) of inputs that are checked."""
+        predicted = np.asarray(self.estimator.predict(inputs))
+        return predicted if self.recalibration is None else predicted + self.recalibration.zero
+
+    def _bounds(self, inputs: Array, levels: Sequence[float], predicted: Array) -> Array:
+        """Intervals (n_levels, n_rows, n_coordinates, 2) at ascending levels."""
+        data = replace(self.known, new=predicted, new_commands=self._commands(inputs))
+        if self.recalibration is not None:
+            bounds = around(predicted[None], self.recalibration.half_widths(self._residuals(), levels))
+        else:
+            if isinstance(data, SpreadCalibration):
+                data = replace(data, new_spread=spread_of(self.spec, self.estimator, self.train, inputs))
+            bounds = widened(self.method.intervals(data, levels), predicted, self.estimator, inputs, levels)
+        if self.norm is None:
+            return bounds
+        shells = ShellCalibration(data, self.shells, self.norm, bounds, self.method.calibrated_on.has_spread)
+        return in_domain_and_extrapolation.intervals(shells, levels)
 
     def _residuals(self) -> Array:
         """Residuals (n_calibration, n_coordinates) of the calibration set, mm."""
@@ -193,58 +242,9 @@ class CalibratedModel:
     def _moving(self) -> NDArray[np.bool_]:
         return informative_coordinates(self.train.positions)
 
-    def _checked(self, commands: Array) -> Array:
-        return checked_rows(commands, self.train, self.dataset)
+    def _checked(self, commands: calls.Rows) -> Array:
+        return calls.command_rows(commands, self._names, self.train.inputs.shape[1], self.dataset)
 
-
-@dataclass(frozen=True, slots=True)
-class FittedModel:
-    """A fitted point model: its entry in the registry, preset, estimator, and the rows of `train`."""
-
-    dataset: str
-    spec: ModelSpec
-    preset: str
-    estimator: Any
-    train: Samples
-
-    def spread(self, inputs: Array) -> Array:
-        """Spread of the model at inputs (n_rows, n_inputs): (n_rows, n_coordinates) in mm."""
-        return spread_of(self.spec, self.estimator, self.train, inputs)
-
-
-def calibrated(
-    model: FittedModel,
-    method: IntervalMethod[Any],
-    validation: Samples,
-    shells: Sequence[Shell] = (),
-    norm: Callable[[Array], Array] | None = None,
-) -> CalibratedModel:
-    """The calibrated model around a fitted model, with its predictions on `train` and `validation` stored.
-
-    Parameters:
-        model: the fitted point model.
-        method: an interval method around a point model; its kind of calibration data decides whether spreads are used.
-        validation: the calibration set.
-        shells: what the same model predicts beyond cores of `train`, the smallest core first.
-        norm: command norm, (n_rows, n_commands) -> (n_rows,), that goes with the shells.
-    """
-    train = model.train
-    predicted = np.asarray(model.estimator.predict(validation.inputs))
-    known: dict[str, Array] = {
-        "calibration": predicted,
-        "truth": validation.positions,
-        "new": predicted[:0],
-        "train_commands": train.commands,
-        "calibration_commands": validation.commands,
-        "new_commands": validation.commands[:0],
-    }
-    if method.calibrated_on.has_spread:
-        known["train_spread"] = model.spread(train.inputs)
-        known["calibration_spread"] = model.spread(validation.inputs)
-        known["new_spread"] = known["calibration_spread"][:0]
-    errors = np.abs(train.positions - model.estimator.predict(train.inputs))
-    scale = error_scale(errors[:, informative_coordinates(train.positions)])
-    data = method.calibrated_on(**known)
-    return CalibratedModel(
-        model.dataset, model.spec, model.preset, method, model.estimator, train, data, scale, shells, norm
-    )
+    @cached_property
+    def _names(self) -> calls.Names:
+        return calls.Names.of(self.train.commands.shape[1], self.known.truth.shape[1], self.about.get("columns"))

@@ -15,7 +15,8 @@ from softkin.core.job_records import record_job
 from softkin.core.samples import SUBSETS
 from softkin.models import MODELS
 from softkin.training.kinematic_model import FitSettings, fitted_model
-from softkin.uncertainty.calibrated_model import CalibratedModel, FittedModel, calibrated
+from softkin.uncertainty.calibrated import FittedModel, calibrated
+from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.calibration_data import Shell
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from tests.conftest import bending_arm

@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from softkin.core.errors import ConfigError, DataError
+from softkin.core.errors import ConfigError
 from softkin.core.job_records import record_job
 from softkin.core.run_archive import RunArchive
 from softkin.core.runs import Run
@@ -18,7 +17,7 @@ from softkin.data.table import to_table, write_table
 from softkin.models import MODELS
 from softkin.training.kinematic_model import FitSettings, fitted_model
 from softkin.uncertainty.build_calibrated_model import build_calibrated_model
-from softkin.uncertainty.calibrated_model import CalibratedModel, FittedModel
+from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from tests.conftest import bending_arm
 
@@ -141,28 +140,3 @@ def test_what_never_changes_is_computed_once(files: Path, method: str, monkeypat
     robot.box(0.9)
     robot.p_values(new.commands, new.positions)
     assert predicted_rows == [7, 7]
-
-
-def test_wrong_commands_are_refused(files: Path) -> None:
-    robot = built(files, "scp_mapie")
-    for wrong in (np.zeros((4, 3)), np.full((1, 2), np.nan)):
-        with pytest.raises(DataError, match=r"arm: expected finite commands of shape \(n_rows, 2\)") as caught:
-            robot.predict(wrong)
-        assert caught.value.fix == "pass one row of 2 finite numbers per pose"
-    with pytest.raises(ValueError, match="inhomogeneous"):
-        robot.predict([[1.0], [1.0, 2.0]])  # type: ignore[arg-type]
-
-
-def test_too_few_calibration_rows_give_infinite_intervals(files: Path) -> None:
-    robot = built(files, "scp_mapie")
-    known = robot.known
-    few = replace(robot, known=replace(known, calibration=known.calibration[:5], truth=known.truth[:5]))
-    assert np.isinf(few.intervals(np.zeros(2), [0.9])).all()
-
-
-def test_the_spread_of_a_fitted_model_is_larger_far_from_train(files: Path) -> None:
-    train = bending_arm(150, n_markers=2)
-    model = FittedModel("arm", MODELS["gp"], "tuned", joblib.load(files / "model.joblib"), train)
-    near, far = model.spread(train.commands[:5]), model.spread(train.commands[:5] + 3.0)
-    assert near.shape == (5, 6)
-    assert (far[:, 3:] > near[:, 3:]).all()

@@ -10,7 +10,8 @@ import pytest
 from softkin.core.errors import DataError
 from softkin.models import MODELS
 from softkin.training.kinematic_model import FitSettings, fitted_model
-from softkin.uncertainty.calibrated_model import CalibratedModel, FittedModel, calibrated
+from softkin.uncertainty.calibrated import FittedModel, calibrated
+from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from tests.conftest import bending_arm
 from tests.recorded_robot import recorded_arm

@@ -1,0 +1,82 @@
+"""Put a calibration set around a fitted model: a calibrated model."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from softkin.core.samples import Array, Samples, informative_coordinates
+from softkin.models.spec import ModelSpec
+from softkin.training.predict import spread_of
+from softkin.uncertainty.calibrated_model import CalibratedModel
+from softkin.uncertainty.calibration_data import Shell
+from softkin.uncertainty.conformal import error_scale
+from softkin.uncertainty.intervals.spec import IntervalMethod
+
+
+@dataclass(frozen=True, slots=True)
+class FittedModel:
+    """A fitted point model: its entry in the registry, preset, estimator, and the rows of `train`."""
+
+    dataset: str
+    spec: ModelSpec
+    preset: str
+    estimator: Any
+    train: Samples
+
+    def spread(self, inputs: Array) -> Array:
+        """Spread of the model at inputs (n_rows, n_inputs): (n_rows, n_coordinates) in mm."""
+        return spread_of(self.spec, self.estimator, self.train, inputs)
+
+
+def calibrated(
+    model: FittedModel,
+    method: IntervalMethod[Any],
+    validation: Samples,
+    shells: Sequence[Shell] = (),
+    norm: Callable[[Array], Array] | None = None,
+    about: Mapping[str, Any] | None = None,
+) -> CalibratedModel:
+    """The calibrated model around a fitted model, with its predictions on `train` and `validation` stored.
+
+    Parameters:
+        model: the fitted point model.
+        method: an interval method around a point model; its kind of calibration data decides whether spreads are used.
+        validation: the calibration set.
+        shells: what the same model predicts beyond cores of `train`, the smallest core first.
+        norm: command norm, (n_rows, n_commands) -> (n_rows,), that goes with the shells.
+        about: what else is known of the robot, as in `CalibratedModel.about`; None: nothing.
+    """
+    train = model.train
+    predicted = np.asarray(model.estimator.predict(validation.inputs))
+    known: dict[str, Array] = {
+        "calibration": predicted,
+        "truth": validation.positions,
+        "new": predicted[:0],
+        "train_commands": train.commands,
+        "calibration_commands": validation.commands,
+        "new_commands": validation.commands[:0],
+    }
+    if method.calibrated_on.has_spread:
+        known["train_spread"] = model.spread(train.inputs)
+        known["calibration_spread"] = model.spread(validation.inputs)
+        known["new_spread"] = known["calibration_spread"][:0]
+    errors = np.abs(train.positions - model.estimator.predict(train.inputs))
+    scale = error_scale(errors[:, informative_coordinates(train.positions)])
+    data = method.calibrated_on(**known)
+    return CalibratedModel(
+        model.dataset,
+        model.spec,
+        model.preset,
+        method,
+        model.estimator,
+        train,
+        data,
+        scale,
+        shells,
+        norm,
+        about=about or {},
+    )

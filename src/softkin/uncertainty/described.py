@@ -1,0 +1,43 @@
+"""What a calibrated model is, in eight lines."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from softkin.core.samples import Array
+from softkin.uncertainty.intervals.spec import MARGINAL
+
+
+def described(robot: Any) -> str:
+    """Robot, model, method, error inside and outside, promise, data, date; what is not known has no line."""
+    known, about = robot.known, robot.about
+    n_commands, n_markers = robot.train.commands.shape[1], known.truth.shape[1] // 3
+    is_promised = robot.method.guarantee == MARGINAL
+    lines = {
+        "robot": f"{robot.dataset}, {_counted(n_commands, 'command')} to {_counted(n_markers, 'marker')}",
+        "model": f"{robot.spec.title} ({robot.preset}), fitted on {len(robot.train.commands)} rows",
+        "intervals": f"{robot.method.title}, calibrated on {len(known.truth)} rows",
+        "inside": f"{_marker_error(known.truth - known.calibration):.3g} mm mean marker error on the calibration set",
+        "outside": "nothing is known of errors in extrapolation",
+        "promise": "an interval at 90 % holds its coordinate in 90 % of cases; nothing is promised outside"
+        if is_promised
+        else "none: intervals by this method have no guarantee",
+        "data": f"sha256 {about['data'][:16]} of the rows of `train`" if "data" in about else None,
+        "date": about.get("date"),
+    }
+    if robot.shells:
+        shell = robot.shells[-1]
+        error = _marker_error(shell.truth - shell.predicted)
+        lines["outside"] = f"{error:.3g} mm mean marker error beyond the largest core of `train`"
+    return "\n".join(f"{name:<10} {text}" for name, text in lines.items() if text)
+
+
+def _marker_error(residuals: Array) -> float:
+    """Mean distance in mm of markers from where they are predicted; residuals (n_rows, n_coordinates)."""
+    return float(np.linalg.norm(residuals.reshape(len(residuals), -1, 3), axis=2).mean())
+
+
+def _counted(number: int, what: str) -> str:
+    return f"{number} {what}{'s' * (number != 1)}"
