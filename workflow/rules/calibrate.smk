@@ -1,10 +1,11 @@
-# in:  stored outputs of all models of a dataset, the truth on validation, the fitted models
+# in:  stored outputs of all models of a dataset, the truth on validation, the fitted models, names of the robot's columns
 # out: the intervals of every method around all of them, on test and extrapolation; which method is chosen; and one file
 #      that predicts with the chosen model and method, with intervals, regions and p-values, at any command
 rule calibrate:
     input:
         **STORED_OUTPUTS,
         table="results/{dataset}/table.parquet",
+        description="results/{dataset}/dataset.json",
     output:
         intervals=expand(
             "results/{{dataset}}/intervals/{method}.parquet",

@@ -29,7 +29,7 @@ with job(snakemake.log[0], f"calibrate {dataset}", snakemake.output, snakemake.i
     )
     build_calibrated_model(
         files.table,
-        dataset=dataset,
+        description=files.description,
         choice=output.choice,
         specs=MODELS,
         methods=INTERVAL_METHODS,

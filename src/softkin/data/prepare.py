@@ -14,7 +14,7 @@ from softkin.core.errors import DataError, ResultError
 from softkin.core.files import file_sha256, write_json
 from softkin.core.job_records import recorded_sha256
 from softkin.core.samples import CONSTANT_RANGE_MM, TRAIN, Samples, coordinate_columns, informative_coordinates
-from softkin.data.readers import READERS
+from softkin.data.readers import READERS, table_file
 from softkin.data.recordings import description as recording_description
 from softkin.data.recordings import with_order_table
 from softkin.data.split import check_sizes
@@ -81,12 +81,15 @@ def prepare(
     n_commands, n_markers = samples[TRAIN].commands.shape[1], samples[TRAIN].positions.shape[1] // 3
     schema(n_commands, n_markers, recorded is not None).validate(frame)
     write_table(frame, table)
-    about = {
+    about: dict[str, Any] = {
         "dataset": dataset,
         "sha256": sha256,
         "removed_from_train": removed,
         "is_cut": max_rows is not None and any(size > max_rows for size in sizes.values()),
     }
+    if set(table_file.COLUMNS) <= set(source):
+        unit = {"mm_per_unit": MM_PER_UNIT[source["position_unit"]]}
+        about["columns"] = table_file.own_columns(raw, source) | unit
     write_json(description, about | _description(samples, source) | ({"recording": recorded} if recorded else {}))
     logger.info("%d rows, %d commands, %d coordinates", len(frame), n_commands, 3 * n_markers)
 

@@ -9,12 +9,12 @@ from typing import Any
 import joblib
 
 from softkin.core.errors import ConfigError
-from softkin.core.files import replacing
+from softkin.core.files import read_json, replacing
 from softkin.core.job_records import load_model
 from softkin.core.run_archive import read_run_archive
 from softkin.core.runs import Run
 from softkin.core.samples import TRAIN, VALIDATION
-from softkin.data.table import read_subset
+from softkin.data.table import content_hash, read_subset
 from softkin.models.spec import ModelSpec
 from softkin.uncertainty.calibrated import FittedModel, calibrated
 from softkin.uncertainty.choose import deployed_choice
@@ -25,7 +25,7 @@ from softkin.uncertainty.stored_outputs import norm_of, shells_of
 def build_calibrated_model(
     table: str | Path,
     *,
-    dataset: str,
+    description: str | Path,
     choice: str | Path,
     specs: Mapping[str, ModelSpec],
     methods: Mapping[str, IntervalMethod[Any]],
@@ -37,7 +37,7 @@ def build_calibrated_model(
 
     Parameters:
         table: the tidy table, of which `train` and `validation` are read.
-        dataset: its name.
+        description: of the dataset: its name, and those of the robot's own columns where they are known.
         choice: the candidates of `choose` (CSV).
         specs: entries of the registry by model.
         methods: interval methods by name.
@@ -48,6 +48,8 @@ def build_calibrated_model(
     Raises:
         ConfigError: no configured method puts an interval around a model.
     """
+    written = read_json(description)
+    dataset = written["dataset"]
     best = deployed_choice(choice)
     if best is None:
         raise ConfigError(
@@ -60,11 +62,13 @@ def build_calibrated_model(
     if best["outside"] == AUTO:
         archive = read_run_archive(shells)
         extrapolation = {"shells": shells_of(archive, train)[run], "norm": norm_of(archive)}
+    about = {"data": content_hash(train)} | {key: written[key] for key in ("columns",) if key in written}
     robot = calibrated(
         FittedModel(dataset, specs[run.model], run.preset, load_model(models[run]), train),
         methods[best["interval_method"]],
         read_subset(table, VALIDATION),
         **extrapolation,
+        about=about,
     )
     with replacing(output) as temporary:
         joblib.dump(robot, temporary, compress=3)

@@ -186,7 +186,7 @@ def numbers(values: Rows, what: str, where: str) -> Array:
             column = values.iloc[:, place]
             if not pd.api.types.is_numeric_dtype(column.dtype) or pd.api.types.is_bool_dtype(column.dtype):
                 raise DataError(f"column '{name}' of {what} holds no numbers", where=where, fix=fix)
-        return values.to_numpy(dtype=np.float64, na_value=np.nan)
+        return np.asarray(values.to_numpy(dtype=np.float64, na_value=np.nan))
     if np.ma.isMaskedArray(values):
         raise DataError(f"{what} are masked", where=where, fix="leave the masked rows out")
     try:

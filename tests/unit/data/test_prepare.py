@@ -76,6 +76,9 @@ def test_a_table_of_ones_own_is_described_by_what_it_holds(tmp_path: Path) -> No
     assert (written_description["n_commands"], written_description["n_markers"]) == (3, 2)
     assert written_description["rows"] == {"train": 336, "validation": 42, "test": 42, "extrapolation": 180}
     assert written_description["constant_coordinates"] == ["m1_z", "m2_z"]
+    named = written_description["columns"]
+    assert (len(named["commands"]), len(named["positions"])) == (written_description["n_commands"], 4)
+    assert (named["dimensions"], named["mm_per_unit"]) == (2, 25.4)
     written, prepared = pd.read_csv(example), pd.read_parquet(table)
     by = ["u1", "u2", "u3"]
     prepared = prepared.sort_values(by)

@@ -9,6 +9,7 @@ import pandas as pd
 import pytest
 
 from softkin.core.errors import ConfigError
+from softkin.core.files import write_json
 from softkin.core.job_records import record_job
 from softkin.core.run_archive import RunArchive
 from softkin.core.runs import Run
@@ -30,6 +31,7 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("calibrated")
     subsets = {subset: bending_arm(150, n_markers=2, seed=place) for place, subset in enumerate(SUBSETS)}
     write_table(to_table(subsets), folder / "table.parquet")
+    write_json(folder / "dataset.json", {"dataset": "arm"})
     train = subsets["train"]
     joblib.dump(fitted_model(MODELS["gp"], SETTINGS, train), folder / "model.joblib")
     record_job(folder / "logs" / "fit_model.log", [folder / "model.joblib"])
@@ -53,7 +55,7 @@ def built(files: Path, *methods: str, in_extrapolation: str = "") -> CalibratedM
     choice.assign(outside=in_extrapolation or choice["interval_method"]).to_csv(files / "choice.csv", index=False)
     build_calibrated_model(
         files / "table.parquet",
-        dataset="arm",
+        description=files / "dataset.json",
         choice=files / "choice.csv",
         specs=MODELS,
         methods=INTERVAL_METHODS,

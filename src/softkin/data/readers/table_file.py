@@ -27,6 +27,8 @@ Table = DelimitedText | ParquetColumns
 
 #: Keys of the entry whose columns say when rows were recorded.
 WHEN = ("order", "session")
+#: Keys of the entry whose columns are the robot.
+COLUMNS = ("commands", "positions")
 #: Split conformal prediction at 95 % needs 19 calibration rows.
 FEW_CALIBRATION_ROWS = 19
 #: A marker's range this many times that of the next narrower suggests that they are in different units: along an arm
@@ -88,6 +90,15 @@ def read(path: str | Path, *, dataset: str, source: Mapping[str, Any]) -> dict[s
         for place, subset in enumerate(SUBSETS)
         if len(rows := np.flatnonzero(subset_of == place))
     }
+
+
+def own_columns(path: str | Path, source: Mapping[str, Any]) -> dict[str, Any]:
+    """What the columns of `commands` and of `positions` are called in a file that `read` takes, and how many
+    `dimensions` a marker has there.
+    """
+    names = open_table(path, source.get("delimiter")).names
+    chosen = {key: [names[place] for place in columns.choose(names, source[key], key)] for key in COLUMNS}
+    return {**chosen, "dimensions": source.get("dimensions", 3)}
 
 
 def open_table(path: str | Path, delimiter: str | None = None) -> Table:
