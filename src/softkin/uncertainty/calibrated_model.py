@@ -36,8 +36,7 @@ FORMAT = 2
 class CalibratedModel:
     """Positions, intervals, joint regions and p-values at any commands (n_rows, n_commands), in mm.
 
-    Commands may be an array, lists, one row, or a DataFrame with the robot's own column names in any order; answers are
-    arrays, or DataFrames for a DataFrame.
+    Commands may be an array, lists, one row, or a DataFrame by the robot's own names, which DataFrames answer.
     A run of the workflow writes one per dataset: `softkin.load("results/finger/calibrated_model.joblib")`. Coverage is
     guaranteed for commands exchangeable with those of the calibration set. In extrapolation nothing is guaranteed;
     with `shells`, intervals there are calibrated on the errors of the same model beyond cores of `train`.
@@ -90,12 +89,12 @@ class CalibratedModel:
         A robot that remembers is taken to be sent each command from rest, in a session never seen: `follow` takes a
         sequence, `start` a control loop. calls.Rows may also be `Samples.inputs` of a recording.
         """
-        return like(commands, self._predicted(self._checked(commands)), self._names.coordinates)
+        return like(commands, self._predicted(self._checked(commands)), self.names.coordinates)
 
     def follow(self, commands: calls.Rows, session: int | None = None) -> Array | pd.DataFrame:
         """Predicted positions (n_rows, n_coordinates) of commands sent one after the other, from rest."""
         inputs = State(self, session).inputs(self._checked(commands))
-        return like(commands, self._predicted(inputs), self._names.coordinates)
+        return like(commands, self._predicted(inputs), self.names.coordinates)
 
     def start(self, session: int | None = None, confidence_level: float = 0.9) -> State:
         """The state of the robot at rest: `state.step(command)` gives position, lower and upper bound in a loop."""
@@ -120,7 +119,7 @@ class CalibratedModel:
                 fix="label poses at commands like those of `train`",
             )
         bare = replace(self, recalibration=None)
-        errors = calls.position_rows(positions, self._names, len(inputs), self.dataset) - bare.predict(inputs)
+        errors = calls.position_rows(positions, self.names, len(inputs), self.dataset) - bare.predict(inputs)
         spread = zero_spread(self.estimator)
         found = recalibration(bare._residuals(), errors, self._moving(), spread, self.dataset)
         return replace(self, recalibration=found)
@@ -128,7 +127,7 @@ class CalibratedModel:
     def watch(self, rate: float = 0.01, session: int | None = None, seed: int = 0) -> Watch:
         """An alarm fed pose by pose, from rest: `watch.see(command, position)`."""
         rate = calls.level_of(rate, self.dataset, "rate of false alarms")
-        state, names = State(self, session), self._names.coordinates
+        state, names = State(self, session), self.names.coordinates
         moving = self._moving()
         return Watch(
             self._residuals()[:, moving],
@@ -150,13 +149,13 @@ class CalibratedModel:
         """
         inputs, (levels, is_one) = self._checked(commands), calls.levels_of(confidence_levels, self.dataset)
         if predicted is not None:
-            predicted = calls.position_rows(predicted, self._names, len(inputs), f"{self.dataset}, predicted")
+            predicted = calls.position_rows(predicted, self.names, len(inputs), f"{self.dataset}, predicted")
         ascending = sorted(set(levels))
         bounds = self._bounds(inputs, ascending, self._predicted(inputs) if predicted is None else predicted)
         if levels != ascending:
             bounds = bounds[[ascending.index(level) for level in levels]]
         if isinstance(commands, (pd.DataFrame, pd.Series)):
-            return bounds_frame(commands, bounds, None if is_one else levels, self._names.coordinates)
+            return bounds_frame(commands, bounds, None if is_one else levels, self.names.coordinates)
         return bounds[0] if is_one else bounds
 
     def is_outside(self, commands: calls.Rows) -> NDArray[np.bool_] | pd.Series:
@@ -188,11 +187,11 @@ class CalibratedModel:
         inputs = self._checked(commands)
         calls.check_generator(rng, self.dataset)
         calls.check_same_rows(commands, positions, self.dataset)
-        measured = calls.position_rows(positions, self._names, len(inputs), self.dataset)
+        measured = calls.position_rows(positions, self.names, len(inputs), self.dataset)
         known, new = self._residuals(), measured - self._predicted(inputs)
         single = p_values(np.abs(known), np.abs(new), rng=rng)
         joint = p_values(self._scores(known), self._scores(new), rng=rng)
-        return like(commands, single, self._names.coordinates), like(commands, joint, "pose")
+        return like(commands, single, self.names.coordinates), like(commands, joint, "pose")
 
     def __repr__(self) -> str:
         return described(self)
@@ -243,8 +242,9 @@ class CalibratedModel:
         return informative_coordinates(self.train.positions)
 
     def _checked(self, commands: calls.Rows) -> Array:
-        return calls.command_rows(commands, self._names, self.train.inputs.shape[1], self.dataset)
+        return calls.command_rows(commands, self.names, self.train.inputs.shape[1], self.dataset)
 
     @cached_property
-    def _names(self) -> calls.Names:
+    def names(self) -> calls.Names:
+        """What its columns are called."""
         return calls.Names.of(self.train.commands.shape[1], self.known.truth.shape[1], self.about.get("columns"))

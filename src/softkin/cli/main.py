@@ -1,0 +1,151 @@
+"""The command `softkin`: one face of what exists. `softkin --help` lists it; each command has its own --help.
+
+Libraries are imported inside the commands: help and completion come at once.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from collections.abc import Callable
+from enum import StrEnum
+from functools import wraps
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from softkin.core.errors import SoftkinError
+
+EXIT_CODES = (
+    "Exit codes: 0 as it should be; 1 it failed, or what was asked about is not so; 2 the call or its input is of no "
+    "use; 3 `check`: the robot is not where the model says, `doctor`: something is missing; `campaign` has its own."
+)
+app = typer.Typer(
+    help="Data-driven forward kinematics of soft robots, with calibrated intervals.",
+    epilog=EXIT_CODES,
+    no_args_is_help=True,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+)
+
+
+class Form(StrEnum):
+    """How a table is written."""
+
+    CSV = "csv"
+    PARQUET = "parquet"
+    JSON = "json"
+
+
+Model = Annotated[Path, typer.Argument(help="calibrated_model.joblib of a finished run")]
+Sha256 = Annotated[str | None, typer.Option(help="hash that the model's file must have, if it was taken elsewhere")]
+Trust = Annotated[bool, typer.Option("--trust", help="load a model that has no record and no hash: it runs its code")]
+AsJson = Annotated[bool, typer.Option("--json", help="answer in JSON")]
+
+
+def explained(command: Callable[..., int | None]) -> Callable[..., None]:
+    """The command with its errors in a sentence on stderr, and its exit code."""
+
+    @wraps(command)
+    def run(*arguments: Any, **options: Any) -> None:
+        try:
+            code = command(*arguments, **options) or 0
+        except SoftkinError as error:
+            print(f"softkin: {error}", file=sys.stderr)
+            code = 2
+        except OSError as error:
+            print(f"softkin: {error}", file=sys.stderr)
+            code = 1
+        raise typer.Exit(code)
+
+    return run
+
+
+@app.command(epilog="Example: softkin predict results/finger/calibrated_model.joblib commands.csv --level 0.9")
+@explained
+def predict(
+    model: Model,
+    commands: Annotated[Path, typer.Argument(help="CSV or Parquet, columns by the robot's own names or u1, u2, ...")],
+    level: Annotated[float, typer.Option(help="confidence level of the intervals, in (0, 1)")] = 0.9,
+    out: Annotated[Form, typer.Option(help="form of the answer")] = Form.CSV,
+    to: Annotated[Path | None, typer.Option(help="file that it goes to; standard output where left out")] = None,
+    sha256: Sha256 = None,
+    trust: Trust = False,
+    as_json: AsJson = False,
+) -> None:
+    """Positions in mm with intervals at commands; `outside` says where nothing is promised."""
+    from softkin.cli.use_model import finite, predicted_table, read_rows
+    from softkin.uncertainty.loading import load
+
+    robot = load(model, sha256=sha256, trust=trust)
+    rows, _, unread = read_rows(commands, robot.names, measured=False)
+    _say_unread(unread)
+    table = predicted_table(robot, rows, level)
+    if out is Form.PARQUET and not as_json:
+        table.to_parquet(to if to is not None else sys.stdout.buffer, index=False)
+        return
+    if as_json or out is Form.JSON:
+        records = [{key: finite(value) for key, value in row.items()} for row in table.to_dict(orient="records")]
+        text = json.dumps(records, allow_nan=False) + "\n"
+    else:
+        text = table.to_csv(index=False)
+    if to is None:
+        sys.stdout.write(text)
+    else:
+        to.write_text(text, encoding="utf-8")
+
+
+@app.command(epilog="Example: softkin check results/finger/calibrated_model.joblib today.csv")
+@explained
+def check(
+    model: Model,
+    recording: Annotated[Path, typer.Argument(help="CSV or Parquet: commands and measured positions, as recorded")],
+    rate: Annotated[float, typer.Option(help="how often an alarm may be false, however long one watches")] = 0.01,
+    sha256: Sha256 = None,
+    trust: Trust = False,
+    as_json: AsJson = False,
+) -> int:
+    """Whether a robot is where its model says: p-values, the share outside, the alarm. Exit code 3: it is not."""
+    from dataclasses import asdict
+
+    from softkin.cli.use_model import check_recording, read_rows
+    from softkin.uncertainty.loading import load
+
+    robot = load(model, sha256=sha256, trust=trust)
+    rows, positions, unread = read_rows(recording, robot.names, measured=True)
+    _say_unread(unread)
+    assert positions is not None
+    found = check_recording(robot, rows, positions, rate)
+    print(json.dumps(asdict(found)) if as_json else "\n".join(found.sentences()))
+    return 0 if found.alarm_pose is None else 3
+
+
+@app.command(epilog="Example: softkin doctor --json")
+@explained
+def doctor(as_json: AsJson = False) -> int:
+    """What is installed, which store there is, which data can be reached. Exit code 3: something is missing."""
+    from softkin.cli.doctor import diagnosis, is_well, sentences
+
+    found = diagnosis(Path())
+    print(json.dumps(found) if as_json else "\n".join(sentences(found)))
+    return 0 if is_well(found) else 3
+
+
+def _say_unread(columns: list[str]) -> None:
+    if columns:
+        print(f"softkin: not read: {', '.join(columns)}", file=sys.stderr)
+
+
+def main() -> None:
+    """Run the command."""
+    from softkin.cli import project_commands
+
+    os.environ.update(project_commands.ENVIRONMENT)
+    project_commands.add_to(app, explained)
+    app(prog_name="softkin")
+
+
+if __name__ == "__main__":
+    main()

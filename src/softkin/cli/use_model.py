@@ -1,0 +1,132 @@
+"""Use a calibrated model on tables: predictions at commands, and whether a robot is where the model says."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from softkin.core.errors import DataError
+from softkin.core.samples import command_columns, informative_coordinates
+from softkin.data.readers.table_file import open_table
+from softkin.uncertainty.calibrated_model import CalibratedModel
+from softkin.uncertainty.calls import Names
+from softkin.uncertainty.control_loop import State
+
+#: Share of false alarms that p-values are counted at.
+ALPHA = 0.1
+
+
+@dataclass(frozen=True, slots=True)
+class Checked:
+    """What a recording says of a robot: poses in all and outside, the share of those inside with a p-value of at most
+    `ALPHA`, and the pose (from 1, in the file) and coordinates of the alarm, if it went off.
+    """
+
+    n_poses: int
+    n_outside: int
+    share_of_small_p_values: float | None
+    median_error_mm: float
+    alarm_pose: int | None
+    alarm_coordinates: tuple[str, ...]
+    rate: float
+
+    def sentences(self) -> list[str]:
+        """The same in words."""
+        lines = [f"{self.n_poses} poses, {self.n_outside} of them outside, where nothing is promised."]
+        lines += [f"Half of the markers are within {self.median_error_mm:.3g} mm of where the model says."]
+        if self.share_of_small_p_values is None:
+            return [*lines, "No pose is inside: nothing can be said of the robot."]
+        lines += [
+            f"Inside, {self.share_of_small_p_values:.0%} of the poses have a p-value of at most {ALPHA:.0%}; of a "
+            f"robot that is where the model says, about {ALPHA:.0%} have."
+        ]
+        if self.alarm_pose is None:
+            return [*lines, f"No alarm, at a rate of {self.rate:g} false alarms: the robot is where the model says."]
+        where = ", ".join(self.alarm_coordinates) or "no coordinate by itself"
+        return [
+            *lines,
+            f"ALARM at pose {self.alarm_pose} ({where}), at a rate of {self.rate:g} false alarms: the robot is no "
+            "longer where the model says. Recalibrate it on a few labelled poses, or identify it again.",
+        ]
+
+
+def predicted_table(robot: CalibratedModel, commands: pd.DataFrame, level: float) -> pd.DataFrame:
+    """Positions, bounds at the level and `outside`, a row for each command; commands of a robot that remembers are
+    taken as sent one after the other from rest.
+    """
+    inputs = State(robot).inputs(commands.to_numpy(dtype=np.float64))
+    positions = np.asarray(robot.predict(inputs))
+    bounds = np.asarray(robot.intervals(inputs, level, positions))
+    names = robot.names.coordinates
+    parts = {"": positions, "lower_": bounds[..., 0], "upper_": bounds[..., 1]}
+    frame = pd.DataFrame({f"{side}{name}": part[:, i] for i, name in enumerate(names) for side, part in parts.items()})
+    return frame.assign(outside=np.asarray(robot.is_outside(inputs)))
+
+
+def check_recording(robot: CalibratedModel, commands: pd.DataFrame, positions: pd.DataFrame, rate: float) -> Checked:
+    """What a recording, in the order in which it was made, says of the robot; positions in mm."""
+    inputs, measured = State(robot).inputs(commands.to_numpy(dtype=np.float64)), positions.to_numpy()
+    inside = ~np.asarray(robot.is_outside(inputs))
+    joint = np.asarray(robot.p_values(inputs, measured)[1])[inside]
+    errors = measured - np.asarray(robot.predict(inputs))
+    moving = informative_coordinates(robot.train.positions)
+    watch, alarm, at = robot.watch(rate), None, None
+    for place in np.flatnonzero(inside):
+        alarm = watch.judge(errors[place, moving])
+        if alarm is not None:
+            at = int(place) + 1
+            break
+    return Checked(
+        n_poses=len(inputs),
+        n_outside=int((~inside).sum()),
+        share_of_small_p_values=float((joint <= ALPHA).mean()) if len(joint) else None,
+        median_error_mm=float(np.median(np.linalg.norm(errors.reshape(len(errors), -1, 3), axis=2))),
+        alarm_pose=at,
+        alarm_coordinates=() if alarm is None else alarm.coordinates,
+        rate=rate,
+    )
+
+
+def read_rows(path: Path, names: Names, *, measured: bool) -> tuple[pd.DataFrame, pd.DataFrame | None, list[str]]:
+    """Commands of a CSV or Parquet file, positions in mm where they were `measured`, and the columns not read.
+
+    Raises:
+        DataError: no such file, no table, or columns are missing.
+    """
+    if not path.is_file():
+        raise DataError("no such file", where=path, fix="name a CSV or Parquet file with a row for each command")
+    try:
+        table = open_table(path)
+    except DataError as error:
+        raise error.within(str(path)) from error
+    kinds = [[names.own_commands, command_columns(names.n_commands)]]
+    kinds += [[names.own_positions, names.coordinates]] if measured else []
+    wanted = [column for namings in kinds for column in _nearest(namings, table.names)]
+    there = [name for name in wanted if name in table.names]
+    try:
+        values, _ = table.read([table.names.index(name) for name in there], [])
+    except DataError as error:
+        raise error.within(str(path)) from error
+    frame = pd.DataFrame(values, columns=there)
+    command_names = _nearest(kinds[0], table.names)
+    commands = names.commands_in(frame[[name for name in there if name in command_names]], str(path))
+    if not len(frame):
+        raise DataError("no rows", where=path, fix="name a file with a row for each command")
+    positions = None
+    if measured:
+        positions = names.positions_in(frame[[name for name in there if name not in command_names]], str(path))
+    return commands, positions, [name for name in table.names if name not in there]
+
+
+def finite(value: Any) -> Any:
+    """A number for JSON, which has no infinity: None in its place."""
+    return value if not isinstance(value, float) or np.isfinite(value) else None
+
+
+def _nearest(namings: Sequence[Sequence[str]], given: Sequence[str]) -> list[str]:
+    return list(max((naming for naming in namings if len(naming)), key=lambda naming: len(set(naming) & set(given))))

@@ -1,0 +1,61 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from softkin.cli.use_model import check_recording, finite, predicted_table, read_rows
+from softkin.core.errors import DataError
+from tests.conftest import bending_arm
+from tests.unit.uncertainty.small_robot import small_robot
+
+ROBOT = small_robot(shells=True)
+ROWS = bending_arm(80, seed=3)
+COMMANDS = pd.DataFrame(ROWS.commands, columns=["left", "right"])
+POSITIONS = pd.DataFrame(ROWS.positions, columns=["m1_x", "m1_y", "m1_z"])
+
+
+def test_a_table_of_predictions_is_what_the_model_says() -> None:
+    table = predicted_table(ROBOT, COMMANDS, 0.8)
+    assert list(table.columns)[:3] == ["m1_x", "lower_m1_x", "upper_m1_x"]
+    np.testing.assert_array_equal(table[["m1_x", "m1_y", "m1_z"]], ROBOT.predict(ROWS.commands))
+    np.testing.assert_array_equal(table["upper_m1_z"], ROBOT.intervals(ROWS.commands, 0.8)[:, 2, 1])
+    np.testing.assert_array_equal(table["outside"], ROBOT.is_outside(ROWS.commands))
+
+
+def test_a_robot_where_it_is_said_to_be_raises_no_alarm_and_one_elsewhere_does() -> None:
+    well = check_recording(ROBOT, COMMANDS, POSITIONS, 0.01)
+    assert (well.n_poses, well.alarm_pose) == (80, None)
+    assert well.n_outside == np.asarray(ROBOT.is_outside(COMMANDS)).sum() < 20
+    assert well.share_of_small_p_values == pytest.approx(0.1, abs=0.1)
+    assert "No alarm" in well.sentences()[-1]
+    moved = check_recording(ROBOT, COMMANDS, POSITIONS + np.array([2.0, 0.0, 0.0]), 0.01)
+    assert moved.alarm_pose is not None
+    assert moved.alarm_pose < 40
+    assert "ALARM" in moved.sentences()[-1]
+    far = check_recording(ROBOT, COMMANDS * 0 + 9.0, POSITIONS, 0.01)
+    assert far.share_of_small_p_values is None
+    assert "nothing can be said" in far.sentences()[-1]
+
+
+def test_columns_are_found_by_name_and_the_others_are_named(tmp_path: Path) -> None:
+    path = tmp_path / "today.csv"
+    own = (POSITIONS / 10).set_axis(["tip x", "tip y", "tip z"], axis=1)
+    pd.concat([own, COMMANDS[["right", "left"]]], axis=1).assign(t=range(80)).to_csv(path, index=False)
+    commands, positions, unread = read_rows(path, ROBOT.names, measured=True)
+    np.testing.assert_allclose(commands, ROWS.commands)
+    assert positions is not None
+    np.testing.assert_allclose(positions, ROWS.positions)
+    assert unread == ["t"]
+    COMMANDS[["left"]].assign(t=0.0).to_csv(path, index=False)
+    with pytest.raises(DataError, match="missing 'right'") as caught:
+        read_rows(path, ROBOT.names, measured=False)
+    assert caught.value.where == str(path)
+    with pytest.raises(DataError, match="no such file"):
+        read_rows(tmp_path / "none.csv", ROBOT.names, measured=False)
+
+
+def test_json_gets_no_infinity() -> None:
+    assert [finite(value) for value in (1.5, float("inf"), True)] == [1.5, None, True]
