@@ -13,19 +13,18 @@ from numpy.typing import NDArray
 
 from softkin.core.errors import DataError, ResultError
 from softkin.core.samples import Array, Samples, informative_coordinates
-from softkin.core.shells import command_norm
 from softkin.models.spec import ModelSpec
 from softkin.training.predict import spread_of
 from softkin.uncertainty import calls
 from softkin.uncertainty.alarm import Watch
 from softkin.uncertainty.answers import bounds_frame, like
-from softkin.uncertainty.calibration_data import PointCalibration, Shell, ShellCalibration, SpreadCalibration
+from softkin.uncertainty.calibration_data import PointCalibration, Shell, SpreadCalibration
 from softkin.uncertainty.conformal import around, conformal_limit, joint_scores, p_values
 from softkin.uncertainty.control_loop import State
 from softkin.uncertainty.described import described
-from softkin.uncertainty.intervals import in_domain_and_extrapolation
 from softkin.uncertainty.intervals.spec import IntervalMethod
 from softkin.uncertainty.new_session import widened, zero_spread
+from softkin.uncertainty.prepared import Prepared
 from softkin.uncertainty.recalibration import Recalibration, recalibration
 
 #: Of the file: raised by one when what is in it changes. A file of another format is refused.
@@ -98,7 +97,9 @@ class CalibratedModel:
 
     def start(self, session: int | None = None, confidence_level: float = 0.9) -> State:
         """The state of the robot at rest: `state.step(command)` gives position, lower and upper bound in a loop."""
-        return State(self, session, calls.level_of(confidence_level, self.dataset))
+        level = calls.level_of(confidence_level, self.dataset)
+        self._prepared.make_ready((level,))
+        return State(self, session, level)
 
     def recalibrate(self, commands: calls.Rows, positions: calls.Rows) -> CalibratedModel:
         """The calibrated model of a new session, of 1 to 50 labelled poses: commands in the order in which they were
@@ -161,10 +162,7 @@ class CalibratedModel:
     def is_outside(self, commands: calls.Rows) -> NDArray[np.bool_] | pd.Series:
         """Which commands (n_rows,) lie in extrapolation, where nothing is guaranteed."""
         rows = self._commands(self._checked(commands))
-        norm = self.norm or command_norm(self.train.commands, standardised=True).of
-        known = replace(self.known, new_commands=rows)
-        outside = in_domain_and_extrapolation.is_in_extrapolation(ShellCalibration(known, self.shells, norm))
-        return like(commands, outside, "outside")
+        return like(commands, self._prepared.is_outside(rows), "outside")
 
     def box(self, confidence_level: float) -> Array:
         """Half-widths (n_coordinates,) in mm of the joint box around a predicted pose that holds all moving
@@ -221,11 +219,8 @@ class CalibratedModel:
         else:
             if isinstance(data, SpreadCalibration):
                 data = replace(data, new_spread=spread_of(self.spec, self.estimator, self.train, inputs))
-            bounds = widened(self.method.intervals(data, levels), predicted, self.estimator, inputs, levels)
-        if self.norm is None:
-            return bounds
-        shells = ShellCalibration(data, self.shells, self.norm, bounds, self.method.calibrated_on.has_spread)
-        return in_domain_and_extrapolation.intervals(shells, levels)
+            bounds = widened(self._prepared.in_domain(data, tuple(levels)), predicted, self.estimator, inputs, levels)
+        return self._prepared.everywhere(data, bounds, tuple(levels))
 
     def _residuals(self) -> Array:
         """Residuals (n_calibration, n_coordinates) of the calibration set, mm."""
@@ -243,6 +238,10 @@ class CalibratedModel:
 
     def _checked(self, commands: calls.Rows) -> Array:
         return calls.command_rows(commands, self.names, self.train.inputs.shape[1], self.dataset)
+
+    @cached_property
+    def _prepared(self) -> Prepared:
+        return Prepared(self.method, self.known, self.shells, self.norm)
 
     @cached_property
     def names(self) -> calls.Names:

@@ -33,7 +33,12 @@ def test_a_command_calls_what_make_calls(
     app: typer.Typer, module: Any, asked: list[str], passed: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     calls: list[list[str]] = []
-    monkeypatch.setattr(module, "main", lambda arguments: calls.append(list(arguments)) or 7)
+
+    def called(arguments: list[str]) -> int:
+        calls.append(list(arguments))
+        return 7
+
+    monkeypatch.setattr(module, "main", called)
     assert CliRunner().invoke(app, asked).exit_code == 7
     assert calls == [passed]
 
@@ -47,7 +52,12 @@ def test_the_workflow_is_run_where_there_is_one(
     assert done.exit_code == 2
     assert "there is no Snakefile" in done.stderr
     commands: list[list[str]] = []
-    monkeypatch.setattr(subprocess, "call", lambda command: commands.append(command) or 0)
+
+    def called(command: list[str]) -> int:
+        commands.append(command)
+        return 0
+
+    monkeypatch.setattr(subprocess, "call", called)
     (tmp_path / "Snakefile").write_text("")
     assert CliRunner().invoke(app, [name, "--cores", "3"]).exit_code == 0
     assert commands[0][1:5] == ["-m", "snakemake", "--cores", "3"]

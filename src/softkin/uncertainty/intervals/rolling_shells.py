@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from softkin.core.samples import Array
-from softkin.uncertainty.calibration_data import ShellCalibration
+from softkin.uncertainty.calibration_data import Shell, ShellCalibration
 from softkin.uncertainty.conformal import around, conformal_limits
-from softkin.uncertainty.error_growth import fit_error_growth, new_distances, shell_distances
+from softkin.uncertainty.error_growth import ErrorGrowth, fit_error_growth, new_distances, shell_distances
 from softkin.uncertainty.intervals.spec import NO_GUARANTEE, IntervalMethod
 
 
@@ -29,14 +29,26 @@ def half_widths(data: ShellCalibration, confidence_levels: Sequence[float]) -> A
     places, distances_of_new = shell_distances(data), new_distances(data)
     widest = np.zeros((len(confidence_levels), *data.deployed.new.shape))
     for growth in fit_error_growth(data):
-        limits = []
-        for shell, (core, distances) in zip(data.shells, places, strict=True):
-            scores = np.abs(shell.truth - shell.predicted) / growth.of_shell(core, distances)
-            limits.append(conformal_limits(scores, confidence_levels))
-        finite = np.where(np.isfinite(limits), limits, -np.inf).max(axis=0)
-        largest = np.where(np.isfinite(finite), finite, np.inf)
+        largest = largest_limits(data.shells, growth, places, confidence_levels)
         widest = np.maximum(widest, largest[:, None] * growth.of_new(distances_of_new))
     return widest
+
+
+def largest_limits(
+    shells: Sequence[Shell],
+    growth: ErrorGrowth,
+    places: Sequence[tuple[float, Array]],
+    confidence_levels: Sequence[float],
+) -> Array:
+    """The largest limit (n_levels, n_coordinates) of the shells, of errors in units of what `growth` predicts at their
+    `places`; infinite at a level for which all have too few rows.
+    """
+    limits = []
+    for shell, (core, distances) in zip(shells, places, strict=True):
+        scores = np.abs(shell.truth - shell.predicted) / growth.of_shell(core, distances)
+        limits.append(conformal_limits(scores, confidence_levels))
+    finite = np.where(np.isfinite(limits), limits, -np.inf).max(axis=0)
+    return np.where(np.isfinite(finite), finite, np.inf)
 
 
 METHOD = IntervalMethod(

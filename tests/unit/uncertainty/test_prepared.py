@@ -1,0 +1,92 @@
+"""What is worked out once gives what working it out for each command gives, to 1e-12."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from softkin.core.shells import command_norm
+from softkin.training.predict import spread_of
+from softkin.uncertainty import error_growth, prepared
+from softkin.uncertainty.calibrated_model import CalibratedModel
+from softkin.uncertainty.calibration_data import ShellCalibration, SpreadCalibration
+from softkin.uncertainty.intervals import in_domain_and_extrapolation
+from tests.conftest import bending_arm
+from tests.unit.tracking.robots import robot as gaussian_process
+from tests.unit.tracking.robots import with_shells
+from tests.unit.uncertainty.small_robot import small_robot
+
+NEW = bending_arm(300, seed=9, largest_command=1.8).commands
+LEVELS = (0.5, 0.8, 0.9, 0.95, 0.999)
+
+
+def of_gaussian_process() -> CalibratedModel:
+    model = with_shells(gaussian_process())
+    return replace(model, norm=command_norm(model.train.commands, standardised=False).of)
+
+
+ROBOTS = {method: small_robot(method, shells=True) for method in ("scp_mapie", "scp_crepes", "scp_distance", "cps")}
+ROBOTS |= {"scp_spread": of_gaussian_process(), "no shells": small_robot()}
+
+
+def slow_intervals(robot: CalibratedModel) -> np.ndarray:
+    """As they were made before anything was kept."""
+    data = replace(robot.known, new=np.asarray(robot.predict(NEW)), new_commands=NEW)
+    if isinstance(data, SpreadCalibration):
+        data = replace(data, new_spread=spread_of(robot.spec, robot.estimator, robot.train, NEW))
+    bounds = robot.method.intervals(data, LEVELS)
+    if robot.norm is None:
+        return bounds
+    has_spread = robot.method.calibrated_on.has_spread
+    shells = ShellCalibration(data, robot.shells, robot.norm, bounds, has_spread)
+    return in_domain_and_extrapolation.intervals(shells, LEVELS)
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_intervals_are_those_of_the_slow_path(name: str) -> None:
+    robot = ROBOTS[name]
+    slow = slow_intervals(robot)
+    np.testing.assert_allclose(robot.intervals(NEW, LEVELS), slow, rtol=0, atol=1e-12)
+    for place in (0, 150, 299):
+        np.testing.assert_allclose(robot.intervals(NEW[place], LEVELS)[:, 0], slow[:, place], rtol=0, atol=1e-10)
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_what_is_outside_is_what_the_slow_path_says(name: str) -> None:
+    robot = ROBOTS[name]
+    norm = robot.norm or command_norm(robot.train.commands, standardised=True).of
+    data = ShellCalibration(replace(robot.known, new_commands=NEW), robot.shells, norm)
+    outside = np.asarray(robot.is_outside(NEW))
+    np.testing.assert_array_equal(outside, in_domain_and_extrapolation.is_in_extrapolation(data))
+    assert 20 < outside.sum() < 280
+    inside = robot.train.commands
+    assert np.asarray(robot.is_outside(inside)).sum() == 0
+
+
+def test_nothing_is_fitted_twice(monkeypatch: pytest.MonkeyPatch) -> None:
+    fits: list[int] = []
+
+    def counted(data: ShellCalibration) -> list[error_growth.ErrorGrowth]:
+        fits.append(1)
+        return error_growth.fit_error_growth(data)
+
+    monkeypatch.setattr(prepared, "fit_error_growth", counted)
+    robot = replace(small_robot(shells=True))
+    for row in NEW[:40]:
+        robot.intervals(row, 0.9)
+    assert fits == [1]
+
+
+def test_a_control_loop_has_everything_ready_before_its_first_command(monkeypatch: pytest.MonkeyPatch) -> None:
+    robot = replace(small_robot(shells=True))
+    state = robot.start()
+
+    def fitted(data: ShellCalibration) -> list[error_growth.ErrorGrowth]:
+        raise AssertionError(data)
+
+    monkeypatch.setattr(prepared, "fit_error_growth", fitted)
+    monkeypatch.setattr(prepared, "conformal_limits", fitted)
+    far = state.step(NEW[np.argmax(np.linalg.norm(NEW, axis=1))])
+    assert np.isfinite(far.upper).all()
