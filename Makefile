@@ -56,7 +56,7 @@ endif
 
 # Guess the entry of a robot of your own from FILE, a table. With WRITE=1 config/datasets.yaml gets it.
 new-robot: .venv/installed
-	@$(BIN)/python -m softkin.cli.new_robot $${NAME:+--name="$$NAME"} $${WRITE:+--write} -- "$$FILE"
+	@$(BIN)/python -m softkin.cli.new_robot $${NAME:+--name="$$NAME"} $${HEADER:+--header="$$HEADER"} $${DELIMITER:+--delimiter="$$DELIMITER"} $${WRITE:+--write} -- "$$FILE"
 
 # All tests but the long ones. Those of the workflow wait for one run of it, beside all others.
 test: .venv/installed-dev

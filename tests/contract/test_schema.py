@@ -16,6 +16,7 @@ from softkin.core.errors import ConfigError
 from softkin.core.runs import PRESETS
 from softkin.data.prepare import MM_PER_UNIT
 from softkin.data.readers import READERS
+from softkin.data.readers.table_file import DROP_ROWS
 from softkin.data.split import GROUPS
 from softkin.data.split_in_time import IN_TIME
 from softkin.models.target_spaces import TARGET_SPACES
@@ -35,6 +36,7 @@ LISTED = {
     "when_unreachable": ("simulate", "fail"),
     "position_unit": MM_PER_UNIT,
     "dimensions": (2, 3),
+    "missing": (DROP_ROWS, "refuse"),
     "method": ("column", *GROUPS, *IN_TIME),
 }
 #: What is given with `--configfile`, on top of the default configuration.

@@ -10,11 +10,13 @@ from typing import Any
 
 import numpy as np
 
+from softkin.cli import column_kinds
 from softkin.core.errors import DataError
 from softkin.core.samples import Array
 from softkin.data import split
-from softkin.data.readers import table_file
 from softkin.data.readers.columns import axis_of, marker_by_marker, unit_of
+from softkin.data.readers.memory_table import Table
+from softkin.data.readers.table_formats import open_table
 from softkin.data.recordings import recording_of
 
 #: Words of a column's name, by the kind of column that they say; the first kind that has one of the words counts.
@@ -22,48 +24,68 @@ WORDS = {
     "subset": "subset split",
     "group": "group trial run episode sequence session trajectory experiment repetition",
     "time": "t time timestamp stamp datetime date",
-    "no position": "roll pitch yaw rot rotation angle orientation euler vel velocity acc",
+    "no position": "roll pitch yaw rpy quaternion quat gyro omega angular rot rotation angle orientation euler vel"
+    " velocity acc",
     "ignored": "index idx id row frame sample n no qx qy qz qw",
     "command": "u p q cmd command act actuation actuator input pressure chamber tendon cable force tension motor torque"
-    " voltage current servo valve setpoint control",
+    " voltage current servo valve spool setpoint control",
 }
 #: Parts of a column's name that say one power-on of the robot.
 SESSION = re.compile(r"session|trial|run")
 #: A workspace wider than this is taken to be in mm: no robot is so many metres wide.
 LARGEST_METRES = 5.0
+UNITS = frozenset({"m", "cm", "mm", "in"})
 
 
-def guess_entry(path: Path, title: str, file: str) -> tuple[dict[str, Any], list[str]]:
+def guess_entry(
+    path: Path, title: str, file: str, options: Mapping[str, Any] | None = None
+) -> tuple[dict[str, Any], list[str]]:
     """The entry that the table at `path` probably needs, and a sentence on each key that was guessed. `file` is the
-    path that the entry names.
+    path that the entry names; `options` are keys of the entry that say how the file is read.
 
     Raises:
         DataError: the file cannot be read, or its columns do not tell which are positions and commands.
     """
     try:
-        table = table_file.open_table(path)
-        positions, dimensions = _positions(table.names, path)
-        kinds = {name: _kind(name) for name in table.names if name not in positions}
-        commands, reasons = _commands(kinds, table.names, path)
-        values, _ = table.read([table.names.index(name) for name in positions], [])
+        table = open_table(path, options or {})
+        looked = dict(zip(table.names, table.look(), strict=True))
+        left = [*column_kinds.computed(table.names), *column_kinds.quaternions(table.names, looked)]
+        usable = [name for name in table.names if name not in left]
+        positions, dimensions, reasons = _positions(usable, path)
+        kinds = {name: _kind(name) for name in usable if name not in positions}
+        numeric = {name: kind for name, kind in kinds.items() if looked[name].dtype != object}
+        commands, why_commands = _commands(numeric, table.names, path)
+        reasons += why_commands
+        values, missing, why_missing = _values(table, [*commands, *positions])
+        inputs, values = values[:, : len(commands)], values[:, len(commands) :]
     except DataError as error:
         raise error if error.where == str(path) else error.within(str(path)) from error
     if not len(values):
         raise DataError("a header, but no row of numbers", where=path, fix="export the file again")
-    unit, why_unit = _unit(positions, values, path)
+    unit, why_unit = _unit(positions, values, path, table)
     split_options, why_split = _split(table, kinds)
     entry: dict[str, Any] = {
         "title": title,
         "format": "table_file",
         "file": file,
+        **(options or {}),
         "position_unit": unit,
         "commands": commands,
         "positions": positions,
         "split": split_options,
     }
     when, why_when = _when(table, kinds)
-    entry |= when
-    reasons += [why_unit, why_split, *why_when]
+    running = _running(kinds, looked)
+    if running and not when and split_options["method"] == "random" and column_kinds.are_alike(inputs):
+        when, split_options = {"order": running}, {"method": "later"}
+        why_split = (
+            f"order, split: '{running}' is a running number and rows in turn are alike, so in time; please check"
+        )
+    entry |= when | missing
+    entry["split"] = split_options
+    if column_kinds.affine_copies(inputs, values):
+        reasons.append(f"suspicious_affine: an affine map of {', '.join(commands)} gives the positions; please check")
+    reasons += [why_unit, why_split, *why_when, *why_missing]
     if dimensions == 2:
         entry["dimensions"] = 2
         reasons.append("dimensions: positions of two axes only, so a planar robot")
@@ -82,8 +104,8 @@ def _kind(name: str) -> str | None:
     return next((kind for kind, known in WORDS.items() if {*plain, "".join(plain)}.intersection(known.split())), None)
 
 
-def _positions(names: Sequence[str], path: Path) -> tuple[list[str], int]:
-    """Columns of positions, marker by marker, and how many per marker."""
+def _positions(names: Sequence[str], path: Path) -> tuple[list[str], int, list[str]]:
+    """Columns of positions, marker by marker, how many per marker, and what a person must check of them."""
     named = {name: axis for name in names if (axis := axis_of(name)) and _kind(name) != "no position"}
     for axes in ("xyz", *combinations("xyz", 2)):
         complete = [
@@ -91,7 +113,10 @@ def _positions(names: Sequence[str], path: Path) -> tuple[list[str], int]:
         ]
         if complete:
             columns = [name for name in complete if _kind(name) != "command"] or complete
-            return marker_by_marker(columns), len(axes)
+            return marker_by_marker(columns), len(axes), []
+    numbered = column_kinds.numbered_positions([name for name in names if _kind(name) is None])
+    if numbered:
+        return numbered, 3, ["positions: three numbered columns of one name; please check"]
     raise DataError(
         f"no columns look like positions: {', '.join(names[:40])}",
         where=path,
@@ -114,8 +139,37 @@ def _commands(kinds: Mapping[str, str | None], names: Sequence[str], path: Path)
     return unknown, ["commands: all columns that look like nothing else; please check"]
 
 
-def _unit(names: Sequence[str], values: Array, path: Path) -> tuple[str, str]:
+def _values(table: Table, names: Sequence[str]) -> tuple[Array, dict[str, str], list[str]]:
+    """Values (n_rows, n_names) of columns, the key `missing` where some are, and why.
+
+    Raises:
+        DataError: a cell holds something else than a number.
+    """
+    places = [table.names.index(name) for name in names]
+    try:
+        return table.read(places, [])[0], {}, []
+    except DataError as error:
+        whole = error
+    try:
+        values, _ = table.read(places, [], gaps=True)
+    except DataError:
+        raise whole from None
+    count = int(np.isnan(values).any(axis=1).sum())
+    why = f"missing: {count} of {len(values)} rows lack a number and are left out; please check"
+    return values[~np.isnan(values).any(axis=1)], {"missing": "drop_rows"}, [why]
+
+
+def _running(kinds: Mapping[str, str | None], looked: Mapping[str, Any]) -> str | None:
+    """The first column that is a running number by its name and its numbers."""
+    return next((name for name in kinds if kinds[name] == "ignored" and column_kinds.is_running(looked[name])), None)
+
+
+def _unit(names: Sequence[str], values: Array, path: Path, table: Table) -> tuple[str, str]:
     """The unit of the positions, and why."""
+    told = {table.units[table.names.index(name)] for name in names} if table.units else set()
+    if len(told) == 1 and told <= UNITS:
+        unit = told.pop()
+        return unit, f"position_unit: the row of units says {unit}"
     units = {unit_of(name) for name in names}
     if len(units - {None}) > 1:
         raise DataError(
@@ -129,7 +183,7 @@ def _unit(names: Sequence[str], values: Array, path: Path) -> tuple[str, str]:
     return unit, f"position_unit: guessed from the width of the workspace, {extent:.3g}; please check"
 
 
-def _when(table: table_file.Table, kinds: Mapping[str, str | None]) -> tuple[dict[str, str], list[str]]:
+def _when(table: Table, kinds: Mapping[str, str | None]) -> tuple[dict[str, str], list[str]]:
     """Columns of the order and the session of rows, and what a person must check of them; none where they are no
     order, or sessions are not in one piece.
     """
@@ -147,7 +201,7 @@ def _when(table: table_file.Table, kinds: Mapping[str, str | None]) -> tuple[dic
     return named, [f"{', '.join(named)}: guessed from the names of columns, so that memory can be found; please check"]
 
 
-def _split(table: table_file.Table, kinds: Mapping[str, str | None]) -> tuple[dict[str, Any], str]:
+def _split(table: Table, kinds: Mapping[str, str | None]) -> tuple[dict[str, Any], str]:
     """The options of the split, and why."""
     by_kind = {kind: name for name, kind in reversed(list(kinds.items()))}
     if name := by_kind.get("subset"):

@@ -9,8 +9,9 @@ import argparse
 import logging
 import re
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from softkin.cli.datasets_file import append_entry, entry_text, read_key
 from softkin.cli.guess_entry import guess_entry
@@ -25,8 +26,9 @@ NAME = re.compile(r"[a-z][a-z0-9_]*")
 logger = logging.getLogger("softkin")
 
 
-def show_and_write(file: str, name: str | None, write: bool) -> None:
+def show_and_write(file: str, name: str | None, write: bool, options: Mapping[str, Any] | None = None) -> None:
     """Print the entry of the robot in `file`; with `write` append it to config/datasets.yaml.
+    `options` are keys of the entry that say how the file is read.
 
     Raises:
         DataError: there is no such file, or it cannot be used.
@@ -50,10 +52,10 @@ def show_and_write(file: str, name: str | None, write: bool) -> None:
         )
     is_below = path.resolve().is_relative_to(Path.cwd())
     listed = path.resolve().relative_to(Path.cwd()).as_posix() if is_below else str(path.resolve())
-    entry, reasons = guess_entry(path, name.replace("_", " ").capitalize(), listed)
-    subsets = table_file.read(path, dataset=name, source=entry)
+    entry, reasons = guess_entry(path, name.replace("_", " ").capitalize(), listed, options)
     text = entry_text(name, entry, reasons)
     print(text, end="")
+    subsets = table_file.read(path, dataset=name, source=entry)
     print("rows: " + ", ".join(f"{subset} {len(rows)}" for subset, rows in subsets.items()), file=sys.stderr)
     if not write:
         print(
@@ -73,6 +75,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="new_robot", description=__doc__.splitlines()[0] if __doc__ else None)
     parser.add_argument("file", metavar="FILE", help="the robot's CSV or Parquet file")
     parser.add_argument("--name", help="name of the dataset; the file's name where left out")
+    parser.add_argument("--header", help="the line of the names of columns, from 1, or none")
+    parser.add_argument("--delimiter", help="the character that splits columns")
     parser.add_argument("--write", action="store_true", help=f"append the entry to {DATASETS}")
     options = parser.parse_args(arguments)
     handler = logging.StreamHandler(sys.stderr)
@@ -81,7 +85,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     logger.setLevel(logging.INFO)
     logger.propagate = False  # each message is shown once, here, whatever handlers the root logger has
     try:
-        show_and_write(options.file, options.name, options.write)
+        said = {"delimiter": options.delimiter, "header": options.header}
+        how = {key: int(value) if value.isdecimal() else value for key, value in said.items() if value}
+        show_and_write(options.file, options.name, options.write, how)
     except (SoftkinError, OSError) as error:
         print(f"new_robot: {error}", file=sys.stderr)
         return 2

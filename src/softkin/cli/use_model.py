@@ -12,7 +12,7 @@ import pandas as pd
 
 from softkin.core.errors import DataError
 from softkin.core.samples import command_columns, informative_coordinates
-from softkin.data.readers.table_file import open_table
+from softkin.data.readers.table_formats import open_table
 from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.calls import Names
 from softkin.uncertainty.control_loop import State
@@ -101,7 +101,7 @@ def read_rows(path: Path, names: Names, *, measured: bool) -> tuple[pd.DataFrame
     if not path.is_file():
         raise DataError("no such file", where=path, fix="name a CSV or Parquet file with a row for each command")
     try:
-        table = open_table(path)
+        table = open_table(path, {})
     except DataError as error:
         raise error.within(str(path)) from error
     kinds = [[names.own_commands, command_columns(names.n_commands)]]

@@ -60,7 +60,9 @@ def prepare(
         ResultError: the file was changed since it was retrieved.
     """
     sha256 = _checked_hash(raw, source, dataset)
-    samples = READERS[source["format"]](raw, dataset=dataset, source=source)
+    counts: dict[str, int] = {}
+    counting = {"counts": counts} if "missing" in source else {}
+    samples = READERS[source["format"]](raw, dataset=dataset, source=source, **counting)
     sizes = {subset: len(rows) for subset, rows in samples.items()}
     _check_sizes(sizes, source, f"dataset '{dataset}', file {raw}")
     if order_table is not None:
@@ -90,7 +92,8 @@ def prepare(
     if set(table_file.COLUMNS) <= set(source):
         unit = {"mm_per_unit": MM_PER_UNIT[source["position_unit"]]}
         about["columns"] = table_file.own_columns(raw, source) | unit
-    write_json(description, about | _description(samples, source) | ({"recording": recorded} if recorded else {}))
+    about |= counts | _description(samples, source) | ({"recording": recorded} if recorded else {})
+    write_json(description, about)
     logger.info("%d rows, %d commands, %d coordinates", len(frame), n_commands, 3 * n_markers)
 
 

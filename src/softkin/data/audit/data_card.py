@@ -15,6 +15,7 @@ from softkin.core.samples import CONSTANT_RANGE_MM, SUBSETS, TRAIN, Array, Sampl
 from softkin.data.audit import CHECKS
 from softkin.data.audit.findings import LEAK, worst_severity
 from softkin.data.audit.page import page
+from softkin.data.readers.complete_rows import GAPS
 from softkin.data.table import read_subset
 
 logger = logging.getLogger("softkin")
@@ -40,7 +41,7 @@ def audit(
         position_unit: unit of positions in the dataset's own file, for the card.
         data_card: path of the card to write (JSON).
         readable: path of the page to write (Markdown).
-        removed: rows that cleaning dropped from `train`, by kind; None where it was not asked for.
+        removed: of `removed_rows`; None where nothing was asked for.
         base: what the dataset's entry declares of the robot's base.
 
     Raises:
@@ -58,7 +59,7 @@ def audit(
         "unit": "mm",
         "unit_in_file": position_unit,
         "subsets": {subset: _description(rows) for subset, rows in samples.items()},
-        "removed_from_train": None if removed is None else dict(removed),
+        **_removed(removed),
         "base": _base(samples[TRAIN], base or {}),
         "checks": {name: dict(result.numbers) for name, result in results.items()},
     }
@@ -68,6 +69,22 @@ def audit(
         logger.info("%s: %s", finding.severity, finding.sentence)
     if not findings:
         logger.info("no findings in %d rows", sum(map(len, samples.values())))
+
+
+def removed_rows(description: Mapping[str, Any]) -> dict[str, int] | None:
+    """Rows that a dataset's description says were left out, by kind: those that cleaning dropped from `train`, and
+    those of the file in which a number is missing; None where neither was asked for.
+    """
+    cleaned: Mapping[str, int] | None = description["removed_from_train"]
+    gaps = {GAPS: description[GAPS]} if GAPS in description else None
+    return None if cleaned is None and gaps is None else {**(cleaned or {}), **(gaps or {})}
+
+
+def _removed(removed: Mapping[str, int] | None) -> dict[str, Any]:
+    """The keys of the card for rows that were left out."""
+    cleaned = {kind: count for kind, count in (removed or {}).items() if kind != GAPS}
+    by_cleaning = None if removed is None or (GAPS in removed and not cleaned) else cleaned
+    return {"removed_from_train": by_cleaning} | ({GAPS: removed[GAPS]} if removed and GAPS in removed else {})
 
 
 def _description(rows: Samples) -> dict[str, Any]:

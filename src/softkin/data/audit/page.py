@@ -32,6 +32,7 @@ def page(card: Mapping[str, Any]) -> str:
         "## The rows",
         _rows(card),
         *_removed(card["removed_from_train"]),
+        *_gaps(card.get("rows_with_gaps")),
         "## Ranges",
         f"Commands in the file's own unit, positions in mm (the file has {card['unit_in_file']}).",
         _ranges(card["subsets"]),
@@ -82,6 +83,12 @@ def _removed(removed: Mapping[str, int] | None) -> list[str]:
         return []
     counts = ", ".join(f"{count} {kind.replace('_', ' ')}" for kind, count in removed.items())
     return [f"Dropped from train by `clean`: {counts}. All numbers here are without them."]
+
+
+def _gaps(count: int | None) -> list[str]:
+    if count is None:
+        return []
+    return [f"Left out by `missing: drop_rows`, since a number is missing: {counted(count, 'row')} of the file."]
 
 
 def _ranges(subsets: Mapping[str, Any]) -> str:

@@ -1,4 +1,4 @@
-"""The first bad row of a delimited text file: where it stands, what is wrong with it and how to fix it."""
+"""The bad rows of a delimited text file: where they stand, what is wrong with the first and how to fix it."""
 
 from __future__ import annotations
 
@@ -14,19 +14,25 @@ NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?", re.ASCII)
 THOUSANDS = re.compile(r"[+-]?\d{1,3}([.,' ]\d{3})+([.,]\d+)?", re.ASCII)
 _OTHER_MARK = {".": ",", ",": "."}
 _MARKS = {".": "points", ",": "commas"}
+#: Cells of numbers that say that there is none.
+MISSING = ("", "nan", "NaN", "NAN", "na", "NA", "n/a", "N/A", "null", "NULL", "None", "none")
+#: Bad rows are listed up to this many.
+SHOWN = 10
+FIX_MISSING = "fill the cell or delete the row, or write missing: drop_rows into the entry"
 _NOT_FINITE = ("nan", "na", "n/a", "null", "none", "inf", "infinity")
 
 
 @dataclass(frozen=True, slots=True)
 class Layout:
     """How rows should look: `names` of all columns, places of those that hold `numbers`, and in words the delimiter;
-    `mark` is the decimal mark of most numbers.
+    `mark` is the decimal mark of most numbers; with `gaps` cells of numbers may be `MISSING`.
     """
 
     names: Sequence[str]
     numbers: Sequence[int]
     delimiter: str
     mark: str
+    gaps: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,14 +43,21 @@ class _Problem:
 
 
 def first_bad_row(rows: Iterable[tuple[int, list[str]]], layout: Layout) -> DataError | None:
-    """The error of the first bad one of the `rows` (line, cells), with the number of bad rows; None if all are good."""
+    """The error of the first bad one of the `rows` (line, cells), with the lines of all; None if all are good."""
     bad = [(line, problem) for line, row in rows if (problem := _problem(row, layout))]
     if not bad:
         return None
     line, problem = bad[0]
-    count = f" (rows with such problems: {len(bad)}, the last on line {bad[-1][0]})" if bad[1:] else ""
+    count = f" ({listed('line', [line for line, _ in bad])})" if bad[1:] else ""
     column = "" if problem.column is None else f", column '{problem.column}'"
     return DataError(problem.what + count, where=f"line {line}{column}", fix=problem.fix)
+
+
+def listed(what: str, places: Sequence[int]) -> str:
+    """How many bad rows there are, and where the first ten are: `what` a place is, and its numbers."""
+    shown = ", ".join(map(str, places[:SHOWN]))
+    more = f" and {len(places) - SHOWN} more, the last {places[-1]}" if len(places) > SHOWN else ""
+    return f"rows with such problems: {len(places)}, {what}s {shown}{more}"
 
 
 def _problem(row: Sequence[str], layout: Layout) -> _Problem | None:
@@ -58,6 +71,8 @@ def _problem(row: Sequence[str], layout: Layout) -> _Problem | None:
     if _are_plainly_numbers([row[place] for place in layout.numbers], layout.mark):
         return None
     for place in layout.numbers:
+        if layout.gaps and row[place] in MISSING:
+            continue
         problem = _problem_of_cell(row[place].strip(" \t"), layout.mark)
         if problem:
             return _Problem(*problem, layout.names[place])
@@ -71,9 +86,9 @@ def _problem_of_cell(cell: str, mark: str) -> tuple[str, str] | None:
             return None
         return f"too large a number: '{cell[:40]}'", "correct the value or delete the row"
     if not cell:
-        return "no value", "fill the cell or delete the row"
+        return "no value", FIX_MISSING
     if cell.lower().lstrip("+-") in _NOT_FINITE:
-        return f"no finite number: '{cell}'", "fill the cell or delete the row"
+        return f"no finite number: '{cell}'", FIX_MISSING
     if NUMBER.fullmatch(cell):
         return (
             f"'{cell[:40]}', where other numbers have decimal {_MARKS[mark]}",

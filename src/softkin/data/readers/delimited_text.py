@@ -4,11 +4,9 @@ rounded correctly: a float that was written with all its digits comes back to th
 
 from __future__ import annotations
 
-import codecs
-import csv
 import io
 import logging
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
@@ -19,28 +17,47 @@ from numpy.typing import NDArray
 
 from softkin.core.errors import DataError
 from softkin.core.samples import Array
-from softkin.data.readers.bad_rows import NUMBER, THOUSANDS, Layout, first_bad_row
+from softkin.data.readers.bad_rows import MISSING, THOUSANDS, Layout, first_bad_row
+from softkin.data.readers.memory_table import Table, from_cells, list_in, looked_at
+from softkin.data.readers.text_layout import (
+    BLANKS,
+    DELIMITERS,
+    SAMPLE_BYTES,
+    SAMPLE_ROWS,
+    TextLayout,
+    layout_of,
+    rows_of,
+)
 
 logger = logging.getLogger("softkin")
 
-DELIMITERS = {",": "comma", ";": "semicolon", "\t": "tab", "|": "bar"}
-SAMPLE_BYTES = 1 << 18
-SAMPLE_ROWS = 200
-_ENCODINGS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
+#: Rows that a guess is made from.
+LOOKED_AT = 100_000
 
 
 @dataclass(frozen=True, slots=True)
 class DelimitedText:
-    """A text file with a header: how it is written, and the `names` of its columns in their order."""
+    """A text file, and how it is written."""
 
     path: Path
-    encoding: str
-    delimiter: str
-    lines_above: int
-    names: tuple[str, ...]
+    layout: TextLayout
 
-    def read(self, numbers: Sequence[int], others: Sequence[int]) -> tuple[Array, list[NDArray[Any]]]:
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of the columns, in their order."""
+        return self.layout.names
+
+    @property
+    def units(self) -> tuple[str, ...]:
+        """Of the columns, where a row of the file tells them; else empty."""
+        return self.layout.units
+
+    def read(
+        self, numbers: Sequence[int], others: Sequence[int], *, gaps: bool = False
+    ) -> tuple[Array, list[NDArray[Any]]]:
         """Columns by their places, each once: `numbers` as (n_rows, n_numbers), each of `others` as text (n_rows,).
+
+        With `gaps` a cell of `numbers` may be empty, or hold one of `MISSING`: it becomes NaN.
 
         Raises:
             DataError: a cell of `numbers` is no finite number, or a row has more or fewer values than the header.
@@ -50,7 +67,7 @@ class DelimitedText:
         reason = ""
         for mark, name in ((".", "points"), (",", "commas")):
             try:
-                table = self._parse(numbers, others, mark)
+                table = self._parse(numbers, others, mark, gaps)
             except pa.ArrowException as error:
                 reason = str(error)
                 continue
@@ -58,9 +75,10 @@ class DelimitedText:
             for place, number in enumerate(numbers):
                 values[:, place] = table.column(f"c{number}").to_numpy()
             texts = [table.column(f"c{other}").to_numpy().astype(object) for other in others]
-            if not np.isfinite(values).all():
+            if not np.isfinite(values).all() and not (gaps and not np.isinf(values).any()):
                 break
-            logger.info("read as %s, columns split by %s, decimal %s", self.encoding, self._delimiter_in_words(), name)
+            split_by = self._delimiter_in_words()
+            logger.info("read as %s, columns split by %s, decimal %s", self.layout.encoding, split_by, name)
             if mark == "," and all(THOUSANDS.fullmatch(cell) for cell in self._first_cells(numbers) if "," in cell):
                 remark = DataError(
                     "numbers such as 1,234 were read as decimal commas (1.234)",
@@ -69,61 +87,92 @@ class DelimitedText:
                 )
                 logger.warning("%s", remark)
             return values, texts
-        raise self._first_bad_row(numbers) or DataError(
+        raise self._first_bad_row(numbers, gaps) or DataError(
             f"not readable as CSV: {reason}", fix="save the file as CSV anew"
         )
 
     def place(self, row: int) -> str:
         """Where row `row` (from 0, without the header) stands in the file."""
         with self._open() as lines:
-            return f"line {next(islice(self._rows(lines), row + 1, None))[0]}"
+            return f"line {next(islice(self._rows(lines), row, None))[0]}"
 
-    def _parse(self, numbers: Sequence[int], others: Sequence[int], mark: str) -> Any:
+    def rows(self, most: int | None) -> list[tuple[int, list[str]]]:
+        """(line, cells) of the first rows, at `most` so many."""
+        with self._open() as lines:
+            return list(islice(self._rows(lines), most))
+
+    def look(self) -> list[NDArray[Any]]:
+        """The columns of the first `LOOKED_AT` rows as far as they can be read: numbers, with NaN where there is none,
+        or text, where most cells hold no number.
+        """
+        cells = [row for _, row in self.rows(LOOKED_AT) if len(row) == len(self.names)]
+        return [looked_at([row[place].strip() for row in cells]) for place in range(len(self.names))]
+
+    def _parse(self, numbers: Sequence[int], others: Sequence[int], mark: str, gaps: bool) -> Any:
         import pyarrow as pa
         from pyarrow import csv as arrow
 
         chosen = {f"c{place}": pa.float64() for place in numbers} | {f"c{place}": pa.string() for place in others}
         return arrow.read_csv(
-            self.path,
+            self._source(),
             arrow.ReadOptions(
                 use_threads=False,
-                encoding="utf-16" if self.encoding == "utf-16" else "utf8",
+                encoding="utf-16" if self.layout.encoding == "utf-16" and not self._has_blanks() else "utf8",
                 column_names=[f"c{place}" for place in range(len(self.names))],
-                skip_rows=self.lines_above,
-                skip_rows_after_names=1,
+                skip_rows=self.layout.lines_above,
+                skip_rows_after_names=self.layout.header_rows,
             ),
             # Only a header ever has line breaks within quotes; looking out for them costs time.
-            arrow.ParseOptions(delimiter=self.delimiter, newlines_in_values="\n" in "".join(self.names)),
-            arrow.ConvertOptions(column_types=chosen, include_columns=list(chosen), null_values=[], decimal_point=mark),
+            arrow.ParseOptions(delimiter=self.layout.delimiter, newlines_in_values="\n" in "".join(self.names)),
+            arrow.ConvertOptions(
+                column_types=chosen,
+                include_columns=list(chosen),
+                null_values=[*MISSING] if gaps else [],
+                decimal_point=mark,
+            ),
         )
 
+    def _has_blanks(self) -> bool:
+        return self.layout.delimiter == BLANKS
+
+    def _source(self) -> Any:
+        """What arrow reads: the file, or where runs of blanks split its columns its text with one blank each."""
+        import pyarrow as pa
+
+        if not self._has_blanks():
+            return self.path
+        with self._open() as lines:
+            text = "\n".join(" ".join(line.split()) for line in lines)
+        return pa.BufferReader(text.encode())
+
     def _open(self) -> io.TextIOWrapper:
-        return open(self.path, encoding=self.encoding, newline="")
+        return open(self.path, encoding=self.layout.encoding, newline="")
 
     def _rows(self, lines: Iterator[str]) -> Iterator[tuple[int, list[str]]]:
-        """(line on which it ends, cells) of each row that is not blank, the header first."""
-        for _ in range(self.lines_above):
+        """(line on which it ends, cells) of each row that is not blank, without header and units."""
+        above = self.layout.lines_above
+        for _ in range(above):
             next(lines)
-        return ((self.lines_above + line, row) for line, row in _rows(lines, self.delimiter))
+        rows = islice(rows_of(lines, self.layout.delimiter), self.layout.header_rows, None)
+        return ((above + line, row) for line, row in rows)
 
     def _first_cells(self, numbers: Sequence[int]) -> list[str]:
         with self._open() as lines:
-            rows = [row for _, row in islice(self._rows(lines), 1, SAMPLE_ROWS) if len(row) == len(self.names)]
+            rows = [row for _, row in islice(self._rows(lines), SAMPLE_ROWS) if len(row) == len(self.names)]
         return [row[place].strip(" \t") for row in rows for place in numbers]
 
-    def _first_bad_row(self, numbers: Sequence[int]) -> DataError | None:
+    def _first_bad_row(self, numbers: Sequence[int], gaps: bool) -> DataError | None:
         cells = self._first_cells(numbers)
         mark = "," if sum("," in cell for cell in cells) > sum("." in cell for cell in cells) else "."
         with self._open() as lines:
-            rows = islice(self._rows(lines), 1, None)
-            return first_bad_row(rows, Layout(self.names, numbers, self._delimiter_in_words(), mark))
+            return first_bad_row(self._rows(lines), Layout(self.names, numbers, self._delimiter_in_words(), mark, gaps))
 
     def _delimiter_in_words(self) -> str:
-        return DELIMITERS.get(self.delimiter, repr(self.delimiter))
+        return DELIMITERS.get(self.layout.delimiter, repr(self.layout.delimiter))
 
 
-def open_text(path: Path, delimiter: str | None = None) -> DelimitedText:
-    """Detect how the text file `path` is written, from its beginning; `delimiter` overrides detection.
+def open_text(path: Path, delimiter: str | None = None, header: str | int | None = None) -> DelimitedText:
+    """Detect how the text file `path` is written, from its beginning; `delimiter` and `header` override detection.
 
     Raises:
         DataError: empty, no text, no header, or one column only.
@@ -131,78 +180,31 @@ def open_text(path: Path, delimiter: str | None = None) -> DelimitedText:
     with open(path, "rb") as file:
         start = file.read(SAMPLE_BYTES)
         is_whole = not file.read(1)
-    text, encoding = _decoded(start, is_whole)
-    lines = io.StringIO(text, newline="").readlines()
-    if not is_whole:
-        lines.pop()  # cut off in the middle
-    above = 0
-    while above < len(lines) and (not lines[above].strip() or lines[above].startswith("sep=")):
-        if lines[above][4:5] in DELIMITERS:  # Excel's own note of it
-            delimiter = delimiter or lines[above][4]
-        above += 1
-    sample = lines[above : above + SAMPLE_ROWS]
-    if not sample:
+    layout = layout_of(start, is_whole, delimiter, header)
+    if layout.lines_above:
+        logger.info("%d lines above the rows are not read", layout.lines_above)
+    return DelimitedText(path, layout)
+
+
+def open_table(path: Path, source: Mapping[str, Any]) -> Table:
+    """The table in the text file `path`, by the keys `delimiter` and `header` of its entry; where cells hold lists, a
+    column for each of their numbers.
+
+    Raises:
+        DataError: as `open_text`; or lists of one column have different lengths.
+    """
+    text = open_text(path, source.get("delimiter"), source.get("header"))
+    rows = text.rows(1)
+    if not any(list_in(cell) for _, row in rows for cell in row):
+        return text
+    rows = text.rows(None)
+    wrong = next(((line, row) for line, row in rows if len(row) != len(text.names)), None)
+    if wrong is not None:
         raise DataError(
-            "no rows in the first 256 kB", fix="save the table as CSV, one row per line, under a row with the names"
+            f"{len(wrong[1])} values, but the header names {len(text.names)} columns",
+            where=f"line {wrong[0]}",
+            fix="put lists within quotes, one to a cell",
         )
-    tried = repr(delimiter) if delimiter else ", ".join(DELIMITERS.values())
-    delimiter = delimiter or max(DELIMITERS, key=lambda candidate: _fit(sample, candidate))
-    names = tuple(name.strip() for name in next(_rows(iter(sample), delimiter))[1])
-    if len(names) < 2:
-        raise DataError(
-            f"one column only, '{''.join(names)[:60]}'; columns are split by none of {tried}",
-            where=f"line {above + 1}",
-            fix="save the file as CSV, or write the character that separates columns as `delimiter` of the entry",
-        )
-    if all(NUMBER.fullmatch(name) or not name for name in names):
-        raise DataError(
-            f"no header: the first row holds numbers only ('{delimiter.join(names)[:60]}')",
-            where=f"line {above + 1}",
-            fix="write a row with the names of the columns above it",
-        )
-    if is_whole and len(list(_rows(iter(sample), delimiter))) < 2:
-        raise DataError("a header, but no row of numbers", fix="export the file again")
-    return DelimitedText(path, encoding, delimiter, above, names)
-
-
-def _decoded(start: bytes, is_whole: bool) -> tuple[str, str]:
-    """The text of the first bytes of a file, and its encoding."""
-    encoding = next((name for mark, name in _ENCODINGS.items() if start.startswith(mark)), "utf-8")
-    try:
-        text = codecs.getincrementaldecoder(encoding)().decode(start, final=is_whole)
-    except UnicodeDecodeError as error:
-        line = start[: error.start].count(b"\n") + 1
-        raise DataError(
-            f"not {encoding}: {error.reason} (byte {start[error.start]:#04x})",
-            where=f"line {line}",
-            fix="save the file as 'CSV UTF-8', or write its header in plain letters",
-        ) from error
-    if "\0" in text:
-        line = text[: text.index("\0")].count("\n") + 1
-        raise DataError(
-            "zero bytes: the file is UTF-16 without its mark, or no text",
-            where=f"line {line}",
-            fix="save the file as 'CSV UTF-8'",
-        )
-    if not text.strip():
-        raise DataError("the file is empty", fix="export it again, with a header and rows of numbers")
-    return text, encoding
-
-
-def _fit(sample: list[str], delimiter: str) -> tuple[bool, int]:
-    """How well a delimiter splits the first rows: into equally many cells at all, and into how many."""
-    counts = [len(row) for _, row in _rows(iter(sample), delimiter)]
-    return len(set(counts)) == 1 and counts[0] > 1, counts[0]
-
-
-def _rows(lines: Iterator[str], delimiter: str) -> Iterator[tuple[int, list[str]]]:
-    """(line on which it ends, cells) of each row that is not blank."""
-    reader = csv.reader(lines, delimiter=delimiter)
-    try:
-        for row in reader:
-            if row:
-                yield reader.line_num, row
-    except (csv.Error, UnicodeDecodeError) as error:
-        raise DataError(
-            f"not readable: {error}", where=f"line {reader.line_num + 1}", fix="save the file as 'CSV UTF-8'"
-        ) from error
+    logger.info("cells hold lists: a column for each of their numbers")
+    columns = [[row[place] for _, row in rows] for place in range(len(text.names))]
+    return from_cells(text.names, columns, lambda row: f"line {rows[row][0]}")

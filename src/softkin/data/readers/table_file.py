@@ -1,4 +1,4 @@
-"""Reader of a robot's own table: one CSV or Parquet file, one row per pose, columns of commands and of positions.
+"""Reader of a robot's own table: a file with one row per pose, columns of commands and of positions.
 
 The entry names the columns (a list, or a pattern), the number of coordinates per marker and how to split the rows.
 """
@@ -16,44 +16,41 @@ from softkin.core.errors import DataError
 from softkin.core.recording import Recording
 from softkin.core.samples import EXTRAPOLATION, MAX_MAGNITUDE, SUBSETS, VALIDATION, Array, Samples
 from softkin.data import split
-from softkin.data.readers import columns, delimited_text, parquet_columns
-from softkin.data.readers.delimited_text import DelimitedText
-from softkin.data.readers.parquet_columns import ParquetColumns
+from softkin.data.readers import columns
+from softkin.data.readers.complete_rows import GAPS, CompleteRows
+from softkin.data.readers.table_formats import open_table
 from softkin.data.recordings import recording_of
 
 logger = logging.getLogger("softkin")
-
-Table = DelimitedText | ParquetColumns
 
 #: Keys of the entry whose columns say when rows were recorded.
 WHEN = ("order", "session")
 #: Keys of the entry whose columns are the robot.
 COLUMNS = ("commands", "positions")
+#: What is done with rows in which a number is missing, where they are not refused.
+DROP_ROWS = "drop_rows"
 #: Split conformal prediction at 95 % needs 19 calibration rows.
 FEW_CALIBRATION_ROWS = 19
 #: A marker's range this many times that of the next narrower suggests that they are in different units: along an arm
 #: ranges grow gradually.
 SUSPICIOUS_GAP = 100.0
-#: First bytes of files that people take for tables -> what they are, and how to get a table.
-_MAGIC = {
-    b"PK\x03\x04": ("an Excel workbook or a zip file", "open it and save the sheet as 'CSV UTF-8'"),
-    b"\xd0\xcf\x11\xe0": ("an old Excel workbook", "open it and save the sheet as 'CSV UTF-8'"),
-    b"\x1f\x8b": ("compressed by gzip", "unpack it"),
-    b"\x89HDF": ("an HDF5 file", "export the table as CSV or Parquet"),
-    b"MATLAB": ("a MATLAB file", "write the table with writetable(T, 'robot.csv')"),
-}
 
 
-def read(path: str | Path, *, dataset: str, source: Mapping[str, Any]) -> dict[str, Samples]:
+def read(
+    path: str | Path, *, dataset: str, source: Mapping[str, Any], counts: dict[str, int] | None = None
+) -> dict[str, Samples]:
     """Samples per subset, rows in the order of the file, positions in its own unit; planar ones get a third
-    coordinate 0.
+    coordinate 0. With `missing: drop_rows` rows without all numbers are left out, and `counts` gets their number as
+    `rows_with_gaps`.
 
     Raises:
         DataError: the file is not what its entry `source` says; names the file, row and column.
     """
     where = f"dataset '{dataset}', file {source['file']}"
     try:
-        table = open_table(path, source.get("delimiter"))
+        table = open_table(path, source)
+        if source.get("missing") == DROP_ROWS:
+            table = CompleteRows(table)
         commands = columns.choose(table.names, source["commands"], "commands")
         coordinates = columns.choose(table.names, source["positions"], "positions")
         named = {
@@ -67,6 +64,8 @@ def read(path: str | Path, *, dataset: str, source: Mapping[str, Any]) -> dict[s
         columns.check(names[:n_commands], names[n_commands:], dimensions, source)
         others = [place for place in dict.fromkeys(named.values()) if place not in chosen]
         values, read_others = table.read(chosen, others)
+        if counts is not None and isinstance(table, CompleteRows):
+            counts[GAPS] = table.n_dropped
         by_place = dict(zip(others, read_others, strict=True)) | dict(zip(chosen, values.T, strict=True))
         by = {key: by_place[place] for key, place in named.items()}
         if not len(values):
@@ -96,25 +95,9 @@ def own_columns(path: str | Path, source: Mapping[str, Any]) -> dict[str, Any]:
     """What the columns of `commands` and of `positions` are called in a file that `read` takes, and how many
     `dimensions` a marker has there.
     """
-    names = open_table(path, source.get("delimiter")).names
+    names = open_table(path, source).names
     chosen = {key: [names[place] for place in columns.choose(names, source[key], key)] for key in COLUMNS}
     return {**chosen, "dimensions": source.get("dimensions", 3)}
-
-
-def open_table(path: str | Path, delimiter: str | None = None) -> Table:
-    """The table in a CSV or Parquet file; its first bytes decide which it is, not its name.
-
-    Raises:
-        DataError: the file is neither, or is empty, or has no header.
-    """
-    with open(path, "rb") as file:
-        start = file.read(8)
-    for magic, (what, fix) in _MAGIC.items():
-        if start.startswith(magic):
-            raise DataError(f"no table, but {what}", fix=fix)
-    if start.startswith(b"PAR1"):
-        return parquet_columns.open_parquet(Path(path))
-    return delimited_text.open_text(Path(path), delimiter)
 
 
 def _recording(commands: Array, by: Mapping[str, Any], place: Callable[[int], str]) -> Recording | None:

@@ -10,7 +10,7 @@ import pytest
 from softkin.core.files import read_json
 from softkin.core.samples import SUBSETS, Samples
 from softkin.data.audit import CHECKS
-from softkin.data.audit.data_card import audit
+from softkin.data.audit.data_card import _removed, audit, removed_rows
 from softkin.data.table import to_table, write_table
 from tests.conftest import bending_arm
 from tests.unit.data.audit.clean_robot import clean_robot
@@ -97,3 +97,23 @@ def test_the_card_says_where_the_base_stands_and_who_says_so(tmp_path: Path) -> 
     assert constant["origin_from"] == ["a marker that never moves"] * 3
     assert constant["origin_mm"] == pytest.approx([10.0, 20.0, 30.0])
     assert constant["axis_from"] == "estimated"
+
+
+@pytest.mark.parametrize(
+    ("description", "removed", "cleaned"),
+    [
+        ({"removed_from_train": None}, None, None),
+        ({"removed_from_train": {"stuck_rows": 2}}, {"stuck_rows": 2}, {"stuck_rows": 2}),
+        ({"removed_from_train": None, "rows_with_gaps": 3}, {"rows_with_gaps": 3}, None),
+        (
+            {"removed_from_train": {"stuck_rows": 2}, "rows_with_gaps": 3},
+            {"stuck_rows": 2, "rows_with_gaps": 3},
+            {"stuck_rows": 2},
+        ),
+    ],
+)
+def test_rows_that_were_left_out_are_counted_by_kind(description: Any, removed: Any, cleaned: Any) -> None:
+    assert removed_rows(description) == removed
+    keys = _removed(removed)
+    assert keys["removed_from_train"] == cleaned
+    assert keys.get("rows_with_gaps") == description.get("rows_with_gaps")

@@ -66,7 +66,7 @@ def test_the_first_bad_row_is_named_and_all_are_counted() -> None:
     error = first_bad_row([(2, ["1", "", "2"]), (4, ["", "", "2"]), (5, ["1", "", "x"]), (9, ["1"])], POINTS)
     assert error is not None
     assert error.where == "line 4, column 'u'"
-    assert error.what == "no value (rows with such problems: 3, the last on line 9)"
+    assert error.what == "no value (rows with such problems: 3, lines 4, 5, 9)"
 
 
 @given(st.floats(allow_nan=False), st.sampled_from([POINTS, COMMAS]))

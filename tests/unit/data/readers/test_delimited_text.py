@@ -1,7 +1,6 @@
 from __future__ import annotations
 
 import contextlib
-import csv
 import logging
 from pathlib import Path
 from typing import Any
@@ -13,7 +12,8 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from softkin.core.errors import DataError
-from softkin.data.readers.delimited_text import DELIMITERS, DelimitedText, open_text
+from softkin.data.readers.delimited_text import DelimitedText, open_text
+from softkin.data.readers.text_layout import DELIMITERS, rows_of
 
 NAMES = ("u1", "u2", "tip_x", "tip_y", "note")
 ROWS = [["0.5", "-1", "12.25", "1e-3", "a"], ["1.5", "2", "-0.125", "7", "b"], ["+3.5", ".5", "1.", "8E2", "c"]]
@@ -100,7 +100,7 @@ def with_cell(cell: str, **written: Any) -> str:
     [
         ("", ["the file is empty", "export it again"]),
         (" \n\n", ["the file is empty"]),
-        (text().replace(",", "  "), ["line 1", "one column only", "comma, semicolon, tab, bar", "`delimiter`"]),
+        ("u1\n1\n2\n", ["line 1", "one column only", "comma, semicolon, tab, bar, blanks", "`delimiter`"]),
         ("0.5,-1,12.25\n1.5,2,3\n", ["line 1", "no header", "write a row with the names"]),
         ("0,5;-1;12,25\n1,5;2;3\n", ["line 1", "no header"]),
         (with_cell("abc"), ["line 3, column 'u2': no number: 'abc'", "correct the cell"]),
@@ -117,7 +117,7 @@ def with_cell(cell: str, **written: Any) -> str:
         (with_cell("1,234.5", delimiter=";"), ["line 3, column 'u2': a separator of thousands: '1,234.5'"]),
         (with_cell("1,5"), ["line 3: 6 values", "decimal commas", "semicolons"]),
         (text() + "1,2,3\n", ["line 5: 3 values, but the header names 5 columns"]),
-        (text() + ",,,,\n,,,,\n", ["line 5, column 'u1': no value (rows with such problems: 2", "the last on line 6)"]),
+        (text() + ",,,,\n,,,,\n", ["column 'u1': no value (rows with such problems: 2, lines 5, 6)", "drop_rows"]),
         (text() + '"1,2,3,4,d\n', ["line 5: 1 value, but"]),
         ("u1\xa0[\xb0],x\n1,2\n".encode("latin-1"), ["line 1: not utf-8", "0xa0", "CSV UTF-8"]),
         (text().encode("utf-16-le"), ["line 1: zero bytes", "UTF-16", "CSV UTF-8"]),
@@ -188,6 +188,7 @@ def test_any_bytes_are_numbers_as_written_or_a_clear_error(
 
 def written(table: DelimitedText) -> list[list[float]]:
     """The first two columns as Python reads them."""
-    with open(table.path, encoding=table.encoding, newline="") as lines:
-        rows = [row for row in csv.reader(lines.readlines()[table.lines_above :], delimiter=table.delimiter) if row]
-    return [[float(cell.strip(" \t").replace(",", ".")) for cell in row[:2]] for row in rows[1:]]
+    layout = table.layout
+    with open(table.path, encoding=layout.encoding, newline="") as lines:
+        rows = [row for _, row in rows_of(iter(lines.readlines()[layout.lines_above :]), layout.delimiter)]
+    return [[float(cell.strip(" \t").replace(",", ".")) for cell in row[:2]] for row in rows[layout.header_rows :]]

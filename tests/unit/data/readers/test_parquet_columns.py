@@ -54,7 +54,7 @@ def test_other_kinds_of_numbers_and_other_columns_are_read(tmp_path: Path) -> No
     [
         (
             [1.0, float("nan"), float("nan")],
-            ["row 1 (the first is 0), column 'x': no finite number (rows with such problems: 2)"],
+            ["row 1 (the first is 0), column 'x': no finite number (rows with such problems: 2, rows 1, 2)"],
         ),
         ([1.0, 2.0, float("inf")], ["row 2 (the first is 0), column 'x': no finite number"]),
         ([None, 1.0, 2.0], ["row 0 (the first is 0), column 'x': no value"]),

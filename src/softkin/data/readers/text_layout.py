@@ -1,0 +1,241 @@
+"""How a text file is written: encoding, delimiter, what stands above its rows, and the names of its columns.
+
+Above the rows may stand lines of comment (`#`, `%`), a preamble of other shape, a header and a row of units. All of it
+is read off the first 256 kB.
+"""
+
+from __future__ import annotations
+
+import codecs
+import csv
+import io
+import re
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from softkin.core.errors import DataError
+from softkin.data.readers.bad_rows import NUMBER
+
+BLANKS = " "
+DELIMITERS = {",": "comma", ";": "semicolon", "\t": "tab", "|": "bar", BLANKS: "blanks"}
+SAMPLE_BYTES = 1 << 18
+SAMPLE_ROWS = 200
+#: Of the rows below a header that is not on the first line, this share has as many cells as it.
+SAME_SHAPE = 0.9
+_ENCODINGS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
+_COMMENTS = ("#", "%")
+#: What a cell of a row of units holds, perhaps in brackets.
+_UNIT = re.compile(
+    r"[\[(]?(|-|1|%|[munk]?m|cm|in|inch|px|pixels?|[mk]?bar|[kM]?Pa|psi|[mk]?N|N?m?Nm|[mk]?V|m?A|[mun]?s|sec|[mk]?Hz|deg"
+    r"|°|rad|°?C|K|steps?|counts?|ticks?|rpm|g|kg|(m|cm|mm|rad|deg)/s(\^?2|²)?)[\])]?"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class TextLayout:
+    """How a text file is written: `lines_above` its header and `header_rows` that hold names and units (0 where there
+    is no header), the `names` of its columns in their order, and the `units` that a row below them tells.
+    """
+
+    encoding: str
+    delimiter: str
+    lines_above: int
+    names: tuple[str, ...]
+    header_rows: int = 1
+    units: tuple[str, ...] = ()
+
+
+def layout_of(
+    start: bytes, is_whole: bool, delimiter: str | None = None, header: str | int | None = None
+) -> TextLayout:
+    """The layout of a text file whose first bytes are `start`, all of it where `is_whole`.
+
+    Parameters:
+        delimiter: overrides detection.
+        header: the line (from 1) of the names, or "none"; None: it is detected.
+
+    Raises:
+        DataError: empty, no text, no header, or one column only.
+    """
+    text, encoding = decoded(start, is_whole)
+    lines = io.StringIO(text, newline="").readlines()
+    if not is_whole:
+        lines.pop()  # cut off in the middle
+    above, noted = _first_row(lines)
+    if isinstance(header, int):
+        above = header - 1
+    delimiter = delimiter or noted
+    sample = lines[above : above + SAMPLE_ROWS]
+    if not sample:
+        raise DataError(
+            "no rows in the first 256 kB", fix="save the table as CSV, one row per line, under a row with the names"
+        )
+    tried = repr(delimiter) if delimiter else ", ".join(DELIMITERS.values())
+    delimiter = delimiter or _best(sample)
+    rows = list(rows_of(iter(sample), delimiter))
+    if not any(len(row) > 1 for _, row in rows[:1]) and _shape(rows)[1] < 2:
+        raise DataError(
+            f"one column only, '{''.join(rows[0][1])[:60]}'; columns are split by none of {tried}",
+            where=f"line {above + 1}",
+            fix="save the file as CSV, or write the character that separates columns as `delimiter` of the entry",
+        )
+    if header is None:
+        layout = _detected(lines[:above], rows, encoding, delimiter, above)
+    elif isinstance(header, int):
+        layout = _below(rows, 0, TextLayout(encoding, delimiter, above, ()))
+    else:
+        layout = TextLayout(encoding, delimiter, above, _numbered(_shape(rows)[1]), 0)
+    if is_whole and len(list(rows_of(iter(lines[layout.lines_above :]), delimiter))) <= layout.header_rows:
+        raise DataError("a header, but no row of numbers", fix="export the file again")
+    return layout
+
+
+def decoded(start: bytes, is_whole: bool) -> tuple[str, str]:
+    """The text of the first bytes of a file, and its encoding.
+
+    Raises:
+        DataError: no text, or none at all.
+    """
+    encoding = next((name for mark, name in _ENCODINGS.items() if start.startswith(mark)), "utf-8")
+    try:
+        text = codecs.getincrementaldecoder(encoding)().decode(start, final=is_whole)
+    except UnicodeDecodeError as error:
+        line = start[: error.start].count(b"\n") + 1
+        raise DataError(
+            f"not {encoding}: {error.reason} (byte {start[error.start]:#04x})",
+            where=f"line {line}",
+            fix="save the file as 'CSV UTF-8', or write its header in plain letters",
+        ) from error
+    if "\0" in text:
+        line = text[: text.index("\0")].count("\n") + 1
+        raise DataError(
+            "zero bytes: the file is UTF-16 without its mark, or no text",
+            where=f"line {line}",
+            fix="save the file as 'CSV UTF-8'",
+        )
+    if not text.strip():
+        raise DataError("the file is empty", fix="export it again, with a header and rows of numbers")
+    return text, encoding
+
+
+def rows_of(lines: Iterator[str], delimiter: str) -> Iterator[tuple[int, list[str]]]:
+    """(line on which it ends, cells) of each row that is not blank."""
+    if delimiter == BLANKS:
+        lines = (" ".join(line.split()) + "\n" for line in lines)
+    reader = csv.reader(lines, delimiter=delimiter)
+    try:
+        for row in reader:
+            if row:
+                yield reader.line_num, row
+    except (csv.Error, UnicodeDecodeError) as error:
+        raise DataError(
+            f"not readable: {error}", where=f"line {reader.line_num + 1}", fix="save the file as 'CSV UTF-8'"
+        ) from error
+
+
+def is_number(cell: str) -> bool:
+    """Whether a cell holds a number, with a decimal point or comma."""
+    return bool(NUMBER.fullmatch(cell.strip()))
+
+
+def _first_row(lines: Sequence[str]) -> tuple[int, str | None]:
+    """How many lines above the first row are blank or comments, and the delimiter that Excel noted there."""
+    above, noted = 0, None
+    while above < len(lines) and (
+        not lines[above].strip() or lines[above].startswith("sep=") or lines[above].lstrip().startswith(_COMMENTS)
+    ):
+        if lines[above].startswith("sep=") and lines[above][4:5] in DELIMITERS:
+            noted = noted or lines[above][4]
+        above += 1
+    return above, noted
+
+
+def _best(sample: list[str]) -> str:
+    """The delimiter that splits the first rows best; blanks where no other does."""
+    fits = {delimiter: _fit(sample, delimiter) for delimiter in DELIMITERS}
+    blanks = fits.pop(BLANKS)
+    best = max(fits, key=lambda delimiter: fits[delimiter])
+    return BLANKS if blanks > fits[best] and not any(fits[best][:2]) and any(blanks[:2]) else best
+
+
+def _fit(sample: list[str], delimiter: str) -> tuple[bool, bool, int]:
+    """How well a delimiter splits the first rows: into equally many cells at all, below a header, and into how many."""
+    rows = list(rows_of(iter(sample), delimiter))
+    first, n_cells = _shape(rows)
+    counts = {len(row) for _, row in rows}
+    return len(counts) == 1 and n_cells > 1, _is_header(rows, first), n_cells
+
+
+def _shape(rows: Sequence[tuple[int, list[str]]]) -> tuple[int, int]:
+    """The first row that has as many cells as most have, and how many."""
+    counts = [len(row) for _, row in rows]
+    if not counts:
+        return 0, 0
+    n_cells = Counter(counts).most_common(1)[0][0]
+    return counts.index(n_cells), n_cells
+
+
+def _is_header(rows: Sequence[tuple[int, list[str]]], first: int) -> bool:
+    """Whether row `first` holds names without any number, and those below as many cells."""
+    below, cells = rows[first + 1 :], rows[first][1] if rows else []
+    if len(cells) < 2 or not below or any(is_number(cell) for cell in cells) or not all(c.strip() for c in cells[1:]):
+        return False
+    alike = sum(len(row) == len(cells) for _, row in below)
+    return alike >= SAME_SHAPE * len(below) and any(is_number(cell) for cell in below[-1][1])
+
+
+def _detected(
+    comments: Sequence[str], rows: Sequence[tuple[int, list[str]]], encoding: str, delimiter: str, above: int
+) -> TextLayout:
+    """The layout where nobody says in which line the names are."""
+    first, n_cells = _shape(rows)
+    first = first if len(rows[0][1]) != n_cells and _is_header(rows, first) else 0
+    layout = TextLayout(encoding, delimiter, above, ())
+    cells = [cell.strip() for cell in rows[first][1]]
+    if not all(is_number(cell) or not cell for cell in cells):
+        return _below(rows, first, layout)
+    names = next((names for line in reversed(comments) if (names := _commented(line, delimiter, len(cells)))), None)
+    if names is None:
+        raise DataError(
+            f"no header: the first row holds numbers only ('{delimiter.join(cells)[:60]}')",
+            where=f"line {above + 1}",
+            fix="write a row with the names of the columns above it, or header: none into the entry (make new-robot "
+            "HEADER=none), which calls them c1, c2, ...",
+        )
+    return TextLayout(encoding, delimiter, above, names, 0)
+
+
+def _below(rows: Sequence[tuple[int, list[str]]], first: int, layout: TextLayout) -> TextLayout:
+    """The layout of a file whose header is row `first` of `rows`."""
+    line, cells = rows[first]
+    above = layout.lines_above + line - 1 - sum(cell.count("\n") for cell in cells)
+    names = tuple(cell.strip() for cell in cells)
+    units = _units([row for _, row in rows[first + 1 : first + 4]], len(names))
+    where = above if first else layout.lines_above
+    return TextLayout(layout.encoding, layout.delimiter, where, names, 1 + bool(units), units)
+
+
+def _units(below: Sequence[Sequence[str]], n_cells: int) -> tuple[str, ...]:
+    """The row of units below a header; empty where there is none."""
+    if len(below) < 2 or len(below[0]) != n_cells or not any(is_number(cell) for cell in below[1]):
+        return ()
+    cells = tuple(cell.strip() for cell in below[0])
+    if not any(cells) or any(is_number(cell) and cell != "1" for cell in cells):
+        return ()
+    is_row = all(_UNIT.fullmatch(cell) for cell in cells) and sum(map(is_number, cells)) < sum(map(bool, cells))
+    return tuple(cell.strip("[]()") for cell in cells) if is_row else ()
+
+
+def _commented(line: str, delimiter: str, n_cells: int) -> tuple[str, ...] | None:
+    """Names in a line of comment, as many as there are columns."""
+    text = line.strip().lstrip("".join(_COMMENTS)).strip()
+    for candidate in dict.fromkeys((delimiter, *DELIMITERS)):
+        for _, cells in rows_of(iter([text]), candidate):
+            if len(cells) == n_cells and not any(is_number(cell) for cell in cells):
+                return tuple(cell.strip() for cell in cells)
+    return None
+
+
+def _numbered(n_cells: int) -> tuple[str, ...]:
+    return tuple(f"c{place + 1}" for place in range(n_cells))
