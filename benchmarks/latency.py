@@ -12,10 +12,11 @@ import argparse
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
-from softkin.core.samples import Array, Samples
+from softkin.core.samples import Array, Params, Samples
 from softkin.core.shells import command_norm
 from softkin.models import MODELS
 from softkin.training.kinematic_model import FitSettings, fitted_model
@@ -39,8 +40,10 @@ def main() -> None:
         title = f"{robot.dataset}, {robot.spec.name}, {robot.method.name}"
         for where, commands in places(robot).items():
             bare = milliseconds(robot.estimator.predict, [row[None] for row in commands])
-            whole = milliseconds(lambda row, robot=robot: robot.intervals(row, LEVEL), list(commands))
-            middle, late, plain = np.median(whole), np.quantile(whole, 0.99), np.median(bare)
+            whole = milliseconds(partial(robot.intervals, confidence_levels=LEVEL), list(commands))
+            middle, late, plain = (
+                float(value) for value in (np.median(whole), np.quantile(whole, 0.99), np.median(bare))
+            )
             print(f"{title:<42} {where:<9} {middle:>10.3f} {late:>8.3f} {plain:>8.3f} {middle / plain:>6.2f}")
         many = np.resize(robot.train.commands, (N_MANY, robot.train.commands.shape[1]))
         plain, middle = (min(milliseconds(call, [many] * 3)) for call in (robot.estimator.predict, robot_at(robot)))
@@ -72,7 +75,10 @@ def milliseconds(call: Callable[[Array], object], arguments: list[Array]) -> lis
 
 def made_up() -> Iterator[CalibratedModel]:
     """A polynomial and a Gaussian process, with shells of half and of 70 % of the rows."""
-    settings = {"ridge": {"degree": 3, "alpha": 1e-3}, "gp": {"kernel": "rbf", "trend": "linear", "max_iter": 5}}
+    settings: dict[str, Params] = {
+        "ridge": {"degree": 3, "alpha": 1e-3},
+        "gp": {"kernel": "rbf", "trend": "linear", "max_iter": 5},
+    }
     train, validation = arm(N_TRAIN, 0), arm(N_VALIDATION, 1)
     norm = command_norm(train.commands, standardised=False).of
     for name, params in settings.items():

@@ -84,7 +84,7 @@ def _refused(file: Path, error: sqlite3.Error, patience: float) -> StoreError:
         return StoreError(
             "the MLflow store may not be written",
             where=file,
-            fix=f"give the right to write it and its folder: chmod u+rw '{file}'; results that are finished are kept",
+            fix=f"give the right to write there, by chmod u+rw '{file}'; results that are finished are kept",
         )
     if "not a database" in said:
         return StoreError("this file is no database", where=file, fix=OTHER)

@@ -37,7 +37,8 @@ def test_a_column_of_lists_becomes_one_for_each_number() -> None:
 
 def test_numbers_gaps_and_text_are_told_apart() -> None:
     assert [number_of(cell) for cell in (1, 2.5, "3,5", np.int64(4), True, "a")] == [1.0, 2.5, 3.5, 4.0, None, None]
-    assert np.isnan([number_of(cell) for cell in (None, "", "NaN", float("nan"))]).all()
+    missing: Any = [number_of(cell) for cell in (None, "", "NaN", float("nan"))]
+    assert np.isnan(missing).all()
     assert looked_at(["1", "", "a"]).dtype == object
     np.testing.assert_array_equal(looked_at(["1", "2", "", "a"]), [1.0, 2.0, np.nan, np.nan])
 
