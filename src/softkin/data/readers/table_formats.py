@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from softkin.core.errors import DataError
-from softkin.data.readers import delimited_text, json_records, matlab_file, numpy_file, parquet_columns
+from softkin.data.readers import delimited_text, json_records, matlab_file, motive_export, numpy_file, parquet_columns
 from softkin.data.readers.memory_table import Table
 
 
@@ -42,6 +42,7 @@ TABLE_FORMATS: dict[str, TableFormat] = {
     "numpy": TableFormat(_is_of_numpy, numpy_file.open_table),
     "matlab": TableFormat(begins_with(b"MATLAB"), matlab_file.open_table),
     "json": TableFormat(_is_json, json_records.open_table),
+    "motive": TableFormat(begins_with(*motive_export.FIRST_WORDS), motive_export.open_table),
     "text": TableFormat(lambda _: True, delimited_text.open_table),
 }
 #: First bytes of files that people take for tables -> what they are, and how to get a table.

@@ -1,0 +1,42 @@
+"""Tracking exports of OptiTrack Motive: text with rows of types, names and axes above the frames."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from softkin.core.errors import DataError
+from softkin.data.readers.delimited_text import DelimitedText
+from softkin.data.readers.memory_table import Table
+from softkin.data.readers.text_layout import TextLayout
+
+FIRST_WORDS = (b"Format Version,", b"\xef\xbb\xbfFormat Version,")
+_UNITS = {"Millimeters": "mm", "Centimeters": "cm", "Meters": "m", "Inches": "in"}
+_LINES = 20
+
+
+def open_table(path: Path, _source: Mapping[str, Any]) -> Table:
+    """The frames; columns are `Frame`, `Time (Seconds)`, and `<marker>_x`, ... or `<body>_rotation_x`, ...
+
+    Raises:
+        DataError: its rows of names and axes are not where Motive writes them.
+    """
+    with open(path, encoding="utf-8-sig", newline="") as file:
+        lines = [line for _, line in zip(range(_LINES), file, strict=False)]
+    rows = [next(csv.reader([line]), []) for line in lines]
+    by_label = {row[1]: row for row in rows if len(row) > 1 and row[1] in ("Type", "Name")}
+    frame = next((place for place, row in enumerate(rows) if row[:1] == ["Frame"]), None)
+    if frame is None or "Name" not in by_label or len(by_label["Name"]) != len(rows[frame]):
+        raise DataError("an export of Motive without its rows of names and axes", fix="export it anew with its header")
+    axes, kinds, called = rows[frame], rows[frame - 1], by_label["Name"]
+    middle = {"Rotation": "_rotation", "Position": ""}
+    names = axes[:2] + [
+        f"{name}{middle.get(kind, '_' + kind)}_{axis.lower()}"
+        for name, kind, axis in zip(called[2:], kinds[2:], axes[2:], strict=True)
+    ]
+    header = dict(zip(rows[0][::2], rows[0][1::2], strict=False))
+    unit = _UNITS.get(header.get("Length Units", ""), "")
+    units = tuple(unit if kind == "Position" else "" for kind in kinds)
+    return DelimitedText(path, TextLayout("utf-8-sig", ",", frame, tuple(names), 1, units))
