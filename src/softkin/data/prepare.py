@@ -63,7 +63,10 @@ def prepare(
     counts: dict[str, int] = {}
     counting = {"counts": counts} if "missing" in source else {}
     samples = READERS[source["format"]](raw, dataset=dataset, source=source, **counting)
-    sizes = {subset: len(rows) for subset, rows in samples.items()}
+    sizes, where = (
+        {subset: len(rows) for subset, rows in samples.items()},
+        f"dataset '{dataset}', file {source['file']}",
+    )
     _check_sizes(sizes, source, f"dataset '{dataset}', file {raw}")
     if order_table is not None:
         samples = with_order_table(samples, order_table, source)
@@ -76,9 +79,9 @@ def prepare(
     try:
         check_sizes({subset: len(rows) for subset, rows in samples.items()})
     except DataError as error:
-        raise error.within(f"dataset '{dataset}', file {source['file']}") from error
-    _check_movement(samples[TRAIN], f"dataset '{dataset}', file {source['file']}, `train`")
-    _warn_of_implausible_range(samples[TRAIN], source, f"dataset '{dataset}', file {source['file']}")
+        raise error.within(where) from error
+    _check_movement(samples[TRAIN], f"{where}, `train`")
+    _warn_of_implausible_range(samples[TRAIN], source, where)
     frame = to_table(samples)
     n_commands, n_markers = samples[TRAIN].commands.shape[1], samples[TRAIN].positions.shape[1] // 3
     schema(n_commands, n_markers, recorded is not None).validate(frame)
@@ -89,12 +92,17 @@ def prepare(
         "removed_from_train": removed,
         "is_cut": max_rows is not None and any(size > max_rows for size in sizes.values()),
     }
-    if set(table_file.COLUMNS) <= set(source):
-        unit = {"mm_per_unit": MM_PER_UNIT[source["position_unit"]]}
-        about["columns"] = table_file.own_columns(raw, source) | unit
     about |= counts | _description(samples, source) | ({"recording": recorded} if recorded else {})
-    write_json(description, about)
+    write_json(description, about | _columns(raw, source))
     logger.info("%d rows, %d commands, %d coordinates", len(frame), n_commands, 3 * n_markers)
+
+
+def _columns(raw: str | Path, source: Mapping[str, Any]) -> dict[str, Any]:
+    """What the robot's own file calls its columns, and its unit; empty for files without names."""
+    if not set(table_file.COLUMNS) <= set(source):
+        return {}
+    unit = {"mm_per_unit": MM_PER_UNIT[source["position_unit"]]}
+    return {"columns": table_file.own_columns(raw, source) | unit}
 
 
 def _description(samples: Mapping[str, Samples], source: Mapping[str, Any]) -> dict[str, Any]:
