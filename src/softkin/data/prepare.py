@@ -60,9 +60,7 @@ def prepare(
         ResultError: the file was changed since it was retrieved.
     """
     sha256 = _checked_hash(raw, source, dataset)
-    counts: dict[str, int] = {}
-    counting = {"counts": counts} if "missing" in source else {}
-    samples = READERS[source["format"]](raw, dataset=dataset, source=source, **counting)
+    samples, counts = _read(raw, source, dataset)
     sizes, where = (
         {subset: len(rows) for subset, rows in samples.items()},
         f"dataset '{dataset}', file {source['file']}",
@@ -117,6 +115,13 @@ def _description(samples: Mapping[str, Samples], source: Mapping[str, Any]) -> d
         "content_sha256": {subset: content_hash(rows) for subset, rows in samples.items()},
         "constant_coordinates": _constant_coordinates(train),
     }
+
+
+def _read(raw: str | Path, source: Mapping[str, Any], dataset: str) -> tuple[dict[str, Samples], dict[str, int]]:
+    """The samples of the file, and how many rows were left out by kind, where the entry asks for it."""
+    counts: dict[str, int] = {}
+    counting = {"counts": counts} if "missing" in source else {}
+    return READERS[source["format"]](raw, dataset=dataset, source=source, **counting), counts
 
 
 def _checked_hash(raw: str | Path, source: Mapping[str, Any], dataset: str) -> str:
