@@ -61,10 +61,8 @@ def prepare(
     """
     sha256 = _checked_hash(raw, source, dataset)
     samples, counts = _read(raw, source, dataset)
-    sizes, where = (
-        {subset: len(rows) for subset, rows in samples.items()},
-        f"dataset '{dataset}', file {source['file']}",
-    )
+    sizes = {subset: len(rows) for subset, rows in samples.items()}
+    where = f"dataset '{dataset}', file {source['file']}"
     _check_sizes(sizes, source, f"dataset '{dataset}', file {raw}")
     if order_table is not None:
         samples = with_order_table(samples, order_table, source)
@@ -74,10 +72,7 @@ def prepare(
     if clean is not None:
         samples, removed = clean(samples)
         logger.info("cleaned train: %s", ", ".join(f"{count} {what}" for what, count in removed.items()))
-    try:
-        check_sizes({subset: len(rows) for subset, rows in samples.items()})
-    except DataError as error:
-        raise error.within(where) from error
+    _check_left(samples, where)
     _check_movement(samples[TRAIN], f"{where}, `train`")
     _warn_of_implausible_range(samples[TRAIN], source, where)
     frame = to_table(samples)
@@ -115,6 +110,14 @@ def _description(samples: Mapping[str, Samples], source: Mapping[str, Any]) -> d
         "content_sha256": {subset: content_hash(rows) for subset, rows in samples.items()},
         "constant_coordinates": _constant_coordinates(train),
     }
+
+
+def _check_left(samples: Mapping[str, Samples], where: str) -> None:
+    """Enough rows are left of each subset."""
+    try:
+        check_sizes({subset: len(rows) for subset, rows in samples.items()})
+    except DataError as error:
+        raise error.within(where) from error
 
 
 def _read(raw: str | Path, source: Mapping[str, Any], dataset: str) -> tuple[dict[str, Samples], dict[str, int]]:
