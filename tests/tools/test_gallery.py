@@ -28,7 +28,7 @@ ERRORS = {"elastica": (4e-7, 2e-6), "finger": (0.5, 1.0), "abaqus": (0.4, 0.02)}
 @pytest.fixture
 def results(tmp_path: Path) -> Path:
     """A run of three robots: `elastica` leaks, and a few rows carry the mean of `abaqus`. The first picture is noise,
-    which no compression makes small.
+    which no compression makes small. The finger is recorded, too.
     """
     folder = tmp_path / "results"
     rng = np.random.default_rng(0)
@@ -41,6 +41,9 @@ def results(tmp_path: Path) -> Path:
         pd.DataFrame(words * 2).to_csv(figures / "index.csv", index=False)
     (folder / "tables").mkdir()
     scores, choices = [], []
+    for recorded in {where for where, _ in PICTURES} - set(ERRORS):
+        write_json(folder / recorded / "dataset.json", {"title": "FINGER in time (made up)", "rows": {"test": 40}})
+        write_json(folder / recorded / "data_card.json", {"findings": []})
     for robot, (mean, p95) in ERRORS.items():
         findings = {
             "elastica": [LEAK | {"sentence": "2 of 40 rows.", "consequence": "Training error."}],

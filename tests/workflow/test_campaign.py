@@ -50,16 +50,22 @@ def campaign(house: House, *configuration: Path, options: tuple[str, ...] = ()) 
     return done.returncode, json.loads(file.read_text())
 
 
+def client_of(house: House) -> MlflowClient:
+    """Of the store of a run, and of its registry."""
+    address = f"sqlite:///{house.work / 'mlflow.db'}"
+    return MlflowClient(address, address)
+
+
 def nights(house: House) -> list[Any]:
     """The runs of campaigns, the first one first."""
-    client = MlflowClient(f"sqlite:///{house.work / 'mlflow.db'}")
+    client = client_of(house)
     experiment = client.get_experiment_by_name("campaigns")
     assert experiment is not None
     return list(client.search_runs([experiment.experiment_id], order_by=["attributes.start_time ASC"]))
 
 
 def aliases(house: House, name: str) -> Mapping[str, str]:
-    client = MlflowClient(f"sqlite:///{house.work / 'mlflow.db'}")
+    client = client_of(house)
     return {alias: str(version) for alias, version in client.get_registered_model(name).aliases.items()}
 
 

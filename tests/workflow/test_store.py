@@ -47,7 +47,8 @@ def experiment_id(client: MlflowClient, name: str) -> str:
 
 def content(work: Path) -> dict[str, Any]:
     """All that the store shows, apart from ids and times."""
-    client = MlflowClient(f"sqlite:///{work / 'mlflow.db'}")
+    address = f"sqlite:///{work / 'mlflow.db'}"
+    client = MlflowClient(address, address)
     shown: dict[str, Any] = {}
     experiments = client.search_experiments()
     everything = client.search_runs([one.experiment_id for one in experiments], max_results=1000)
@@ -133,7 +134,7 @@ def test_a_server_takes_the_place_of_the_file(house: House, server: str, tmp_pat
     assert logged[0] == logged[1]
     assert not (work / "mlflow.db").exists()
     assert not (work / "mlartifacts").exists()
-    client = MlflowClient(server)
+    client = MlflowClient(server, server)
     local_store = MlflowClient(f"sqlite:///{house.work / 'mlflow.db'}")
     local_runs = local_store.search_runs([experiment_id(local_store, "finger")], max_results=1000)
     assert {run.data.tags[KEY]: run.data.metrics for run in runs} == {

@@ -67,7 +67,7 @@ def _file_lock(tracking_uri: str, name: str, patience: float) -> Iterator[None]:
 @contextmanager
 def _server_lock(tracking_uri: str, name: str, patience: float) -> Iterator[None]:
     check_answers(tracking_uri)
-    client, lock = MlflowClient(tracking_uri), f"{PREFIX}{name}"
+    client, lock = MlflowClient(tracking_uri, tracking_uri), f"{PREFIX}{name}"
     holder = f"{socket.gethostname()} {os.getpid()}"
     deadline = time.monotonic() + patience
     while not _made(client, lock, holder):

@@ -8,7 +8,7 @@ import requests
 from softkin.data.download import Patience, Refused, check_allowed, may_recover, opened, reason
 from tests.unit.data.misbehaving import CONTENT, Server
 
-QUICK = Patience(timeout_seconds=0.3, attempts=2, backoff_seconds=0.01, whole_seconds=1.0, max_bytes=1_000_000)
+QUICK = Patience(timeout_seconds=1.5, attempts=2, backoff_seconds=0.01, whole_seconds=3.0, max_bytes=1_000_000)
 
 
 def read(url: str, patience: Patience = QUICK) -> bytes:

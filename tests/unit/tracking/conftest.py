@@ -108,7 +108,7 @@ def interval_files(tmp_path: Path) -> dict[str, Path]:
 
 def client_of_store(campaign: Campaign) -> Any:
     """MLflow's client; untyped, since MLflow types as absent what is there."""
-    return MlflowClient(campaign.tracking_uri)
+    return MlflowClient(campaign.tracking_uri, campaign.tracking_uri)
 
 
 def snapshot(campaign: Campaign, *, experiment: str = "finger", all_of_them: bool = False) -> dict[str, Any]:

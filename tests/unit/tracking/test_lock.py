@@ -50,11 +50,11 @@ def test_a_server_has_one_lock_of_a_name(campaign: Campaign, monkeypatch: pytest
             pytest.fail("two processes have the lock")
         with _server_lock(uri, "abaqus", 1):
             pass
-    assert MlflowClient(uri).search_registered_models() == []
+    assert MlflowClient(uri, uri).search_registered_models() == []
 
 
 def test_a_lock_on_a_server_ends_with_its_lease(campaign: Campaign, monkeypatch: pytest.MonkeyPatch) -> None:
-    client = MlflowClient(campaign.tracking_uri)
+    client = MlflowClient(campaign.tracking_uri, campaign.tracking_uri)
     client.create_registered_model(f"{PREFIX}finger", {"holder": "a machine that is gone"})
     _break_if_old(client, f"{PREFIX}finger")
     assert len(client.search_registered_models()) == 1

@@ -10,6 +10,7 @@ import yaml
 from softkin.core.samples import SUBSETS, Samples
 from softkin.data.audit import CHECKS
 from softkin.data.audit.cleaning import cleaned
+from softkin.data.audit.few_calibration_rows import ENOUGH_ROWS
 from softkin.data.audit.findings import NOTE, Finding
 from softkin.data.prepare import prepare
 from softkin.data.table import read_subset
@@ -42,16 +43,22 @@ def alarms(n_rows: int, n_commands: int, n_markers: int, noise_mm: float, n_seed
     ]
 
 
+def of_few_rows(n_rows: int, n_seeds: int) -> list[str]:
+    """The one finding that a clean robot has, where `validation` is too small for intervals at 95 %."""
+    n_validation = len(clean_robot(n_rows, 1, 1, 0.0, 0)["validation"])
+    return ["few_calibration_rows"] * n_seeds if n_validation < ENOUGH_ROWS else []
+
+
 @pytest.mark.parametrize("size", ROBOTS, ids=str)
 def test_clean_robots_raise_nothing(size: tuple[int, int, int, float]) -> None:
-    assert alarms(*size, n_seeds=2) == []
+    assert alarms(*size, n_seeds=2) == of_few_rows(size[0], 2)
 
 
 @pytest.mark.slow
 @pytest.mark.timeout(1200)
 @pytest.mark.parametrize("size", [*ROBOTS, (100, 1, 1, 0.1), (2000, 3, 2, 0.1), (5000, 3, 7, 0.0)], ids=str)
 def test_the_false_alarm_rate_over_fifty_seeds_is_nil(size: tuple[int, int, int, float]) -> None:
-    assert alarms(*size, n_seeds=50) == []
+    assert alarms(*size, n_seeds=50) == of_few_rows(size[0], 50)
 
 
 def published(dataset: str, mirror: Path, folder: Path) -> dict[str, Samples]:

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from softkin.core.escaping import markdown_text
 from softkin.core.files import read_json
 from softkin.core.samples import SUBSETS, Samples
 from softkin.data.audit import CHECKS
@@ -45,8 +46,8 @@ def test_findings_stand_in_card_and_page(robot: dict[str, Samples], changed: Rep
     assert (card["worst_severity"], card["is_leaking"]) == ("leak", True)
     assert {"copied_commands", "stuck_poses"} <= {finding["code"] for finding in card["findings"]}
     for finding in card["findings"]:
-        assert finding["sentence"] in readable
-        assert finding["consequence"] in readable
+        assert markdown_text(finding["sentence"]) in readable
+        assert markdown_text(finding["consequence"]) in readable
     assert "test, 20 rows (numbered from 0): 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, ..." in readable
     assert "train, 1 row (numbered from 0): 300" in readable
     assert "Dropped from train by `clean`: 3 stuck rows, 0 duplicate rows." in readable
