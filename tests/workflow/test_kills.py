@@ -32,7 +32,8 @@ from tests.workflow.conftest import House, copy_house
 from tests.workflow.test_campaign import SMALL
 
 N_KILLS = int(os.environ.get("SOFTKIN_KILLS", "20"))
-TIMINGS = ["fit_seconds", "predict_us_per_row"]
+#: Of a run from nothing these are others each time.
+TIMINGS = ["fit_seconds", "predict_us_per_row", "seconds", "cpu_seconds"]
 #: What is killed. A terminal that is closed sends SIGHUP to all.
 VICTIMS = ("snakemake", "job", "both", "terminal")
 #: When: somewhere in a run from nothing, or within seconds of the start of a job that nothing else waits for.
