@@ -14,7 +14,7 @@ from softkin.core.errors import DataError, ResultError
 from softkin.core.files import file_sha256, write_json
 from softkin.core.job_records import recorded_sha256
 from softkin.core.samples import CONSTANT_RANGE_MM, TRAIN, Samples, coordinate_columns, informative_coordinates
-from softkin.data.readers import READERS, table_file
+from softkin.data.readers import OWN_COLUMNS, READERS
 from softkin.data.recordings import description as recording_description
 from softkin.data.recordings import with_order_table
 from softkin.data.split import check_sizes
@@ -92,10 +92,10 @@ def prepare(
 
 def _columns(raw: str | Path, source: Mapping[str, Any]) -> dict[str, Any]:
     """What the robot's own file calls its columns, and its unit; empty for files without names."""
-    if not set(table_file.COLUMNS) <= set(source):
+    if source["format"] not in OWN_COLUMNS:
         return {}
     unit = {"mm_per_unit": MM_PER_UNIT[source["position_unit"]]}
-    return {"columns": table_file.own_columns(raw, source) | unit}
+    return {"columns": OWN_COLUMNS[source["format"]](raw, source) | unit}
 
 
 def _description(samples: Mapping[str, Samples], source: Mapping[str, Any]) -> dict[str, Any]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 from softkin.core.samples import Samples
 from softkin.data.readers import published_json, simulated, table_file
@@ -13,3 +14,6 @@ READERS: dict[str, Callable[..., dict[str, Samples]]] = {
     "table_file": table_file.read,
     "simulated": simulated.read,
 }
+
+#: Source format -> what the robot's own file calls its columns (path, source), for formats whose columns have names.
+OWN_COLUMNS: dict[str, Callable[..., dict[str, Any]]] = {"table_file": table_file.own_columns}
