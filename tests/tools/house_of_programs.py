@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -39,8 +40,13 @@ def programs(environment: Path, version: str) -> Path:
 
 
 @pytest.fixture
-def house(tmp_path: Path) -> Path:
+def house(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The Makefile, and an environment of programs."""
+    # Under `make test` its own flags and variables are in the environment.
+    given = re.search(r"^GIVEN := (.*)$", (HOUSE / "Makefile").read_text(), re.MULTILINE)
+    assert given is not None
+    for name in (*given[1].split(), "MAKEFLAGS", "MFLAGS", "MAKELEVEL", "MAKEOVERRIDES", "PYTHONNOUSERSITE"):
+        monkeypatch.delenv(name, raising=False)
     folder = tmp_path / "a house"
     folder.mkdir()
     shutil.copy(HOUSE / "Makefile", folder)
