@@ -93,8 +93,26 @@ def test_a_reader_is_decided_by_the_files_that_it_reads_with() -> None:
             path.relative_to(PACKAGE).as_posix() for path in imported_code(file_of(f"softkin.data.readers.{reader}"))
         }
 
-    text_or_parquet = {"table_file", "columns", "delimited_text", "bad_rows", "parquet_columns"}
-    expected = {f"data/readers/{name}.py" for name in text_or_parquet} | {"data/split.py", "core/samples.py"}
+    # Whatever kind of table the file turns out to be.
+    tables = {
+        "table_file",
+        "columns",
+        "delimited_text",
+        "bad_rows",
+        "parquet_columns",
+        "complete_rows",
+        "table_formats",
+    }
+    tables |= {
+        "memory_table",
+        "text_layout",
+        "named_arrays",
+        "numpy_file",
+        "matlab_file",
+        "json_records",
+        "motive_export",
+    }
+    expected = {f"data/readers/{name}.py" for name in tables} | {"data/split.py", "core/samples.py"}
     expected |= {"core/recording.py", "data/recordings.py", "data/split_in_time.py"}
     assert names("table_file") == expected
     assert names("published_json") == {"data/readers/published_json.py", "core/samples.py", "core/recording.py"}
