@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import joblib
 import numpy as np
@@ -45,6 +46,29 @@ def test_the_damaged_one_among_sound_ones_is_named(results: list[Path], suffix: 
             check_ends(results)
     else:
         assert error.where == str(path)
+
+
+class Program:
+    """Unpickling it makes a file."""
+
+    def __reduce__(self) -> tuple[Any, tuple[str]]:
+        return Path.touch, (Path("it_ran"),)
+
+
+@pytest.mark.parametrize("compress", [0, 3])
+def test_looking_for_damage_runs_nothing_of_a_model(results: list[Path], compress: int) -> None:
+    joblib.dump(Program(), "results/arm/a.joblib", compress=compress)
+    first_damage(results)
+    assert not Path("it_ran").exists()
+
+
+@pytest.mark.parametrize("cut", [1, 4, 20])
+def test_a_model_that_is_cut_off_anywhere_is_named(results: list[Path], cut: int) -> None:
+    path = Path("results/arm/a.joblib")
+    path.write_bytes(path.read_bytes()[:-cut])
+    error = first_damage(results)
+    assert error is not None
+    assert "it holds no whole model" in str(error)
 
 
 def test_only_results_must_end_with_a_line_break(results: list[Path]) -> None:
