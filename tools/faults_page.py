@@ -1,4 +1,4 @@
-"""docs/faults.md: every fault of tests/contract/faults.py, what happens, and its test.
+"""docs/faults.md: every fault of tests/contract/faults/, what happens, and its test.
 
 python -m tools.faults_page
 """
@@ -13,7 +13,7 @@ PAGE = HOUSE / "docs" / "faults.md"
 PREFACE = """\
 # Faults and what happens
 
-Made by `make faults-page` from `tests/contract/faults.py`; a test checks that it is up to date and that each test is
+Made by `make faults-page` from `tests/contract/faults/`; a test checks that it is up to date and that each test is
 there. {count} faults: after each softkin succeeds, or says in one message which file and what to do, and nothing that
 was finished is lost. Bad inputs have [a page of their own](bad_inputs.md).
 """

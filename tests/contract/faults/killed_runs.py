@@ -1,0 +1,60 @@
+"""Faults of runs that are killed."""
+
+from __future__ import annotations
+
+from tests.contract.faults.fault import Fault
+
+ONE_RUN = "unit/cli/test_one_run.py"
+CAMPAIGN = "unit/cli/test_campaign.py"
+PROCESS = "unit/cli/test_workflow_process.py"
+KILLS = "workflow/test_kills.py::test_a_run_that_was_killed_ends_as_an_undisturbed_one"
+ENDS_EQUAL = "the next plain run finishes, with the tables of an undisturbed one"
+
+FAULTS = [
+    Fault("`kill -9` of Snakemake at a random moment", ENDS_EQUAL, KILLS),
+    Fault("`kill -9` of a job", ENDS_EQUAL, KILLS),
+    Fault("`kill -9` of Snakemake and its jobs at once", ENDS_EQUAL, KILLS),
+    Fault("the terminal is closed (SIGHUP)", ENDS_EQUAL, KILLS),
+    Fault("killed while data are retrieved", ENDS_EQUAL, KILLS),
+    Fault("killed while runs are logged", f"{ENDS_EQUAL}, each run once", KILLS),
+    Fault(
+        "a campaign is killed half-way",
+        "the next one ends with 0",
+        "workflow/test_campaign.py::test_five_nights_in_a_row",
+    ),
+    Fault(
+        "SIGTERM, SIGINT or SIGHUP to a campaign",
+        "it ends with all its jobs, also deaf ones",
+        f"{PROCESS}::test_a_signal_ends_the_workflow_with_its_jobs",
+    ),
+    Fault(
+        "a campaign was stopped",
+        "the verdict says by which signal",
+        f"{CAMPAIGN}::test_a_campaign_that_was_stopped_says_by_what",
+    ),
+    Fault(
+        "the lock, the jobs and the half files of a killed run are left",
+        "cleared, and said",
+        f"{ONE_RUN}::test_what_a_killed_run_left_is_cleared_and_named",
+    ),
+    Fault(
+        "an orphan that ignores SIGTERM",
+        "ended by force",
+        f"{ONE_RUN}::test_a_process_that_does_not_listen_is_ended_by_force",
+    ),
+    Fault(
+        "a note of who runs is torn",
+        "nobody is held up",
+        f"{ONE_RUN}::test_what_a_killed_run_noted_of_itself_holds_nobody_up",
+    ),
+    Fault(
+        "the count of jobs is torn",
+        "unknown, and the campaign goes on",
+        f"{PROCESS}::test_a_count_that_was_torn_by_a_kill_is_unknown",
+    ),
+    Fault(
+        "everything is redone, and that fails",
+        "the studies from before come back",
+        f"{PROCESS}::test_studies_start_anew_and_come_back_where_the_workflow_fails",
+    ),
+]
