@@ -1,4 +1,6 @@
-"""Words that softkin has given up stand nowhere, and lines of prose in Markdown are at most 120 characters long."""
+"""Words that softkin has given up and paths of a machine stand nowhere; prose in Markdown has lines of at most 120
+characters.
+"""
 
 from __future__ import annotations
 
@@ -31,6 +33,12 @@ def test_words_that_were_given_up_stand_nowhere() -> None:
     texts = {path: path.read_text() for path in FILES if path.suffix in KINDS and path != Path(__file__)}
     lines = [(path, line) for path, text in texts.items() for line in text.splitlines()]
     assert [f"{path}: {line.strip()}" for path, line in lines if word.search(line)] == []
+
+
+def test_paths_of_a_machine_stand_nowhere() -> None:
+    place = re.compile(r"(?<![\w.])/(tmp|home|root|work|Users)/\w")
+    texts = {path: path.read_text() for path in FILES if path.suffix in KINDS and path != Path(__file__)}
+    assert [str(path) for path, text in texts.items() if place.search(text)] == []
 
 
 def test_prose_in_markdown_has_short_lines() -> None:

@@ -16,11 +16,11 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from softkin.cli.store_address import store_address
+from softkin.core.addresses import SQLITE
 from softkin.core.errors import ConfigError, SoftkinError
 from softkin.tracking.links import links
 
 HOST = "127.0.0.1"
-SQLITE = "sqlite:///"
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

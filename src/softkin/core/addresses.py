@@ -7,8 +7,11 @@ import re
 from collections.abc import Iterator
 from importlib.util import find_spec
 from pathlib import Path
-from urllib.parse import urlsplit, urlunsplit
+from urllib.parse import urlsplit
 
+from softkin.core.urls import without_credentials
+
+#: A database in a file: the path follows.
 SQLITE = "sqlite:///"
 _SQLITE_MAGIC = b"SQLite format 3\0"
 #: Schemes of databases that MLflow takes -> the driver that SQLAlchemy loads where the address names none.
@@ -16,19 +19,10 @@ DATABASES = {"postgresql": "psycopg2", "mysql": "MySQLdb", "mssql": "pyodbc"}
 SERVERS = ("http", "https")
 
 
-def without_password(address: str) -> str:
-    """The address as it may be shown: without user and password."""
-    try:
-        parts = urlsplit(address)
-    except ValueError:
-        return "an address"
-    return urlunsplit(parts._replace(netloc=parts.netloc.rpartition("@")[2])) if "@" in parts.netloc else address
-
-
 def problems_of_store(uri: str, key: str = "tracking_uri") -> Iterator[str]:
     """Why the MLflow store at `uri` cannot be opened, as far as its address and its file tell."""
     scheme = urlsplit(uri).scheme if re.match(r"[A-Za-z][\w+.-]*:", uri) else ""
-    shown = without_password(uri)
+    shown = without_credentials(uri)
     if uri.startswith(SQLITE):
         reason = _reason_against_file(uri.removeprefix(SQLITE))
     elif scheme == "sqlite":
@@ -54,9 +48,9 @@ def problems_of_mirror(mirror: str, key: str = "data_mirror") -> Iterator[str]:
     if not mirror.strip():
         yield f"{key}: an empty text; name a folder or a URL prefix, or write null"
     elif scheme and scheme not in (*SERVERS, "file"):
-        yield f"{key}: {without_password(mirror)} has the unknown scheme '{scheme}'; name a folder, http:// or https://"
+        yield f"{key}: {without_credentials(mirror)} has the unknown scheme '{scheme}'; name a folder, http:// or https://"
     elif scheme in SERVERS and not _has_host(mirror):
-        yield f"{key}: {without_password(mirror)} names no server"
+        yield f"{key}: {without_credentials(mirror)} names no server"
     elif not scheme and Path(mirror).is_file():
         yield f"{key}: {mirror} is a file; name the folder that holds the datasets' files"
 
@@ -64,9 +58,9 @@ def problems_of_mirror(mirror: str, key: str = "data_mirror") -> Iterator[str]:
 def problems_of_url(url: str, key: str) -> Iterator[str]:
     """Why nothing can be downloaded from a URL, as far as it tells itself."""
     if urlsplit(url).scheme not in SERVERS if _splits(url) else True:
-        yield f"{key}: {without_password(url)} is no http:// or https:// address"
+        yield f"{key}: {without_credentials(url)} is no http:// or https:// address"
     elif not _has_host(url) or re.search(r"\s", url):
-        yield f"{key}: {without_password(url)} names no server, or has a blank in it"
+        yield f"{key}: {without_credentials(url)} names no server, or has a blank in it"
 
 
 def _splits(url: str) -> bool:

@@ -9,6 +9,7 @@ from collections.abc import Iterable
 from softkin.core.damage import first_damage
 from softkin.core.errors import DataError, SoftkinError, StoreError
 from softkin.core.files import with_listed
+from softkin.core.urls import without_credentials
 
 _STORE = (
     "the MLflow store",
@@ -20,7 +21,7 @@ _STUDY = (
 )
 #: Library -> what it keeps, and what to do when it complains.
 LIBRARIES = {"mlflow": _STORE, "sqlalchemy": _STORE, "alembic": _STORE, "sqlite3": _STORE, "optuna": _STUDY}
-_PASSWORD = re.compile(r"(?<=://)[^/@\s]+@")
+_URL = re.compile(r"\w+://\S+")
 
 
 def explained(error: Exception, inputs: Iterable[str | os.PathLike[str]]) -> SoftkinError | None:
@@ -52,6 +53,6 @@ def explained(error: Exception, inputs: Iterable[str | os.PathLike[str]]) -> Sof
 
 
 def _first_sentence(error: Exception) -> str:
-    """The first line of a message, without passwords."""
+    """The first line of a message, without the credentials of the URLs in it."""
     line = next((line.strip() for line in str(error).splitlines() if line.strip()), type(error).__name__)
-    return _PASSWORD.sub("", line)[:300]
+    return _URL.sub(lambda url: without_credentials(url[0]), line)[:300]

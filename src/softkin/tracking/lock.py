@@ -19,9 +19,9 @@ from filelock import FileLock, Timeout
 from mlflow import MlflowClient
 from mlflow.exceptions import MlflowException
 
+from softkin.core.addresses import SQLITE
 from softkin.core.errors import StoreError
 from softkin.tracking.server import check_answers
-from softkin.tracking.store import SQLITE
 
 logger = logging.getLogger("softkin")
 

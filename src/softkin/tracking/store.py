@@ -22,6 +22,7 @@ from filelock import FileLock
 from mlflow import MlflowClient
 from mlflow.exceptions import MlflowException
 
+from softkin.core.addresses import SQLITE
 from softkin.core.errors import StoreError
 from softkin.core.escaping import markdown_text
 from softkin.core.files import read_json
@@ -34,7 +35,6 @@ from softkin.tracking.server import check_answers
 logger = logging.getLogger("softkin")
 
 PARENT, NOTE = "mlflow.parentRunId", "mlflow.note.content"
-SQLITE = "sqlite:///"
 
 
 @dataclass(frozen=True, slots=True)

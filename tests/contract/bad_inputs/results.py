@@ -104,7 +104,7 @@ CASES = [
     BadInput(
         "MLflow's server is gone",
         raising(MlflowException("API request to http://me:secret@host failed\nTraceback of a server")),
-        ("the MLflow store: mlflow says: API request to http://host failed", "check `tracking_uri`"),
+        ("the MLflow store: mlflow says: API request to http://***@host failed", "check `tracking_uri`"),
     ),
     BadInput(
         "a database that is locked",

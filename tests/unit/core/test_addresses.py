@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from softkin.core.addresses import problems_of_mirror, problems_of_store, problems_of_url, without_password
+from softkin.core.addresses import problems_of_mirror, problems_of_store, problems_of_url
 
 
 @pytest.mark.parametrize("uri", ["http://127.0.0.1:5000", "https://me:secret@host/mlflow", "sqlite:///mlflow.db"])
@@ -50,5 +50,7 @@ def test_urls_are_told_from_what_is_none() -> None:
 
 
 def test_a_password_is_not_shown() -> None:
-    assert without_password("postgresql://me:secret@host:5/db") == "postgresql://host:5/db"
-    assert without_password("sqlite:///a@b.db") == "sqlite:///a@b.db"
+    told = [*problems_of_store("ftp://me:secret@host/db"), *problems_of_mirror("s3://me:secret@host")]
+    told += problems_of_url("ftp://me:secret@host/a?token=secret", "urls.0")
+    assert len(told) == 3
+    assert all("host" in sentence and "secret" not in sentence for sentence in told)

@@ -51,7 +51,7 @@ def test_the_damaged_one_among_sound_ones_is_named(results: list[Path], suffix: 
 class Program:
     """Unpickling it makes a file."""
 
-    def __reduce__(self) -> tuple[Any, tuple[str]]:
+    def __reduce__(self) -> tuple[Any, tuple[Path]]:
         return Path.touch, (Path("it_ran"),)
 
 

@@ -14,9 +14,9 @@ def of_library(name: str, message: str) -> Exception:
 
 @pytest.mark.parametrize("library", LIBRARIES)
 def test_a_librarys_error_is_one_sentence_without_passwords(library: str) -> None:
-    error = explained(of_library(library, "\n no http://me:secret@host/x \n  File 'a.py'\n"), [])
+    error = explained(of_library(library, "\n no http://me:secret@host/x?token=abc \n  File 'a.py'\n"), [])
     assert error is not None
-    assert error.what == f"{library} says: no http://host/x"
+    assert error.what == f"{library} says: no http://***@host/x?token=***"
     assert error.where
     assert error.fix
 
