@@ -6,7 +6,8 @@ from functools import cache
 import pytest
 
 from tests.conftest import HOUSE
-from tests.contract.faults import FAULTS, Fault
+from tests.contract.faults import FAULTS
+from tests.contract.faults.fault import Fault
 from tools.faults_page import PAGE, page
 
 ALL = [fault for faults in FAULTS.values() for fault in faults]

@@ -15,19 +15,16 @@ import sys
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
-
-from filelock import FileLock, Timeout
 
 from softkin.campaigns.verdict import BUSY, EXIT_CODES, FAILED, Verdict
+from softkin.cli.held_lock import HeldLock
 from softkin.cli.judging import Results, judge_results, log_failure
 from softkin.cli.notification import take_urls, tell
 from softkin.cli.workflow_process import Ended, run_workflow
 from softkin.core.errors import SoftkinError
 from softkin.core.explained import explained
-from softkin.core.files import read_json, write_json, write_text
+from softkin.core.files import write_json, write_text
 
 LOCK, HOLDER = "campaign.lock", "campaign.json"
 
@@ -55,19 +52,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     os.chdir(asked.directory)  # a store in a file is named from here
     results = asked.directory / "results"
     results.mkdir(parents=True, exist_ok=True)
-    lock = FileLock(results / LOCK, timeout=0)
-    try:
-        taken = lock.acquire()
-    except Timeout:
-        holder = _holder(results / HOLDER)
-        who = f"process {holder.get('pid', 'unknown')} has run one since {holder.get('since', 'an unknown time')}"
-        print(f"softkin: a campaign goes on in {asked.directory}: {who}.", file=sys.stderr)
+    lock = HeldLock.of(results / LOCK, HOLDER)
+    if not lock.take():
+        print(f"softkin: a campaign goes on in {asked.directory}: {lock.holder()}.", file=sys.stderr)
         return EXIT_CODES[BUSY]
-    with taken:
-        write_json(results / HOLDER, {"pid": os.getpid(), "since": datetime.now(UTC).isoformat(timespec="seconds")})
+    try:
         verdict = _campaign(asked, results)
         write_json(results / "verdict.json", verdict.as_dict())
         write_text(results / "verdict.md", verdict.as_markdown())
+    finally:
+        lock.release()
     print(verdict.as_markdown())
     tell(verdict, command=asked.notify, urls=urls)
     return verdict.exit_code
@@ -86,14 +80,6 @@ def _campaign(asked: Arguments, results: Path) -> Verdict:
         if known is None:
             raise
         return Verdict(FAILED, [*reasons, str(known)], facts=found.facts())
-
-
-def _holder(file: Path) -> dict[str, Any]:
-    """What is known of the campaign that goes on."""
-    try:
-        return dict(read_json(file)) if file.exists() else {}
-    except SoftkinError:
-        return {}
 
 
 def _command(asked: Arguments) -> list[str]:

@@ -10,14 +10,12 @@ import shutil
 import signal
 from collections.abc import Sequence
 from dataclasses import dataclass
-from datetime import UTC, datetime
 from pathlib import Path
 
 import psutil
-from filelock import FileLock, Timeout
 
-from softkin.core.errors import ConfigError, DataError
-from softkin.core.files import read_json, write_json
+from softkin.cli.held_lock import HeldLock
+from softkin.core.errors import ConfigError
 
 #: The lock and what is known of who holds it, in the folder that Snakemake keeps its records in.
 LOCK, HOLDER = "softkin.lock", "softkin_run.json"
@@ -33,19 +31,19 @@ ONLY_LOOKING = {
 PATIENCE, GRACE = 5.0, 5.0
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class OneRun:
     """The right to run in a folder. `take` takes it; it ends with the process."""
 
     folder: Path
-    lock: FileLock
+    lock: HeldLock
 
     @classmethod
     def of(cls, folder: str | Path) -> OneRun:
         """That of a folder, not taken yet."""
         records = Path(folder).resolve() / ".snakemake"
         records.mkdir(parents=True, exist_ok=True)
-        return cls(records.parent, FileLock(records / LOCK))
+        return cls(records.parent, HeldLock.of(records / LOCK, HOLDER))
 
     def take(self, patience: float = PATIENCE) -> list[str]:
         """Take it, and return in sentences what was cleared.
@@ -53,31 +51,13 @@ class OneRun:
         Raises:
             ConfigError: another run goes on; it says since when.
         """
-        try:
-            self.lock.acquire(timeout=patience)
-        except Timeout:
+        if not self.lock.take(patience):
             raise ConfigError(
-                f"another run of softkin goes on here, {self.holder()}",
+                f"another run of softkin goes on here, {self.lock.holder()}",
                 where=self.folder,
                 fix="wait until it has ended, or end it by Ctrl-C where it runs",
-            ) from None
-        me = psutil.Process()
-        write_json(self.lock_folder / HOLDER, {"pid": me.pid, "since": datetime.now(UTC).isoformat(timespec="seconds")})
+            )
         return clear(self.folder)
-
-    @property
-    def lock_folder(self) -> Path:
-        """Where the lock is."""
-        return Path(self.lock.lock_file).parent
-
-    def holder(self) -> str:
-        """Who holds the lock since when, in words."""
-        file = self.lock_folder / HOLDER
-        try:
-            known = dict(read_json(file)) if file.exists() else {}
-        except DataError:  # torn by the kill of a run before
-            known = {}
-        return f"process {known.get('pid', 'unknown')} since {known.get('since', 'an unknown time')}"
 
 
 def clear(folder: str | Path) -> list[str]:
