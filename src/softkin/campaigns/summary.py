@@ -19,7 +19,7 @@ from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, Array, coordinate_c
 from softkin.data.table import read_subset
 from softkin.reporting.tables.interval_choice import deployed_intervals
 
-#: The layout of the files; another one cannot be compared with.
+#: Of the files: raised by one when what is in them changes. Campaigns of another format are not compared with.
 FORMAT = 1
 #: The subsets that campaigns are compared on.
 SCORED = (TEST, EXTRAPOLATION)

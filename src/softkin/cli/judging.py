@@ -131,14 +131,18 @@ def _moved(
     moved = {}
     for candidate in nights.candidates(client, list(summary["datasets"])):
         comparisons, person = list(verdict.comparisons), list(verdict.reasons)
-        if candidate.judged_in:
-            changes, comparisons = _news(nights.night_of(client, candidate.judged_in), summary, rows)
+        judged = nights.night_of(client, candidate.judged_in) if candidate.judged_in else None
+        if judged is not None and judged.summary["format"] == summary["format"]:
+            changes, comparisons = _news(judged, summary, rows)
             person = changes.for_a_person
         of_dataset = [one for one in comparisons if one.dataset == candidate.dataset]
         needs_person = any(sentence.startswith(f"{candidate.dataset}:") for sentence in person)
         if not needs_person and all(one.outcome != WORSE for one in of_dataset):
-            compared = f"{len(of_dataset)} numbers compared"
-            moved[candidate] = f"nothing is worse than with version {candidate.champion} ({compared})"
+            moved[candidate] = (
+                f"nothing is worse than with version {candidate.champion} ({len(of_dataset)} numbers compared)"
+                if of_dataset
+                else f"no campaign has numbers of version {candidate.champion} that it could be compared with"
+            )
     return moved
 
 

@@ -20,7 +20,7 @@ from mlflow.exceptions import MlflowException
 
 from softkin.core.files import read_json
 from softkin.tracking.promotion import CANDIDATE, CHAMPION, aliases_of, promote
-from softkin.tracking.records import find, infinite_of
+from softkin.tracking.records import find, infinite_of, log_points
 from softkin.tracking.saved_view import CAMPAIGNS_TAG, campaigns_view
 from softkin.tracking.store import NOTE, experiment_of
 
@@ -31,13 +31,14 @@ EXPERIMENT, KIND = "campaigns", "night"
 #: The experiment in which the numbers of all nights are curves.
 HISTORY = "history"
 SUMMARY, ROWS = "summary.json", "summary_rows.parquet"
+#: Tag of the format of a summary.
+FORMAT = "summary_format"
 #: Tag of a registered version: the campaign whose rows its successor is compared with.
 JUDGED_IN = "judged_in"
 #: Outcomes of campaigns that have no numbers to compare with.
 WITHOUT_NUMBERS = ("failed",)
 #: Metrics that the view of nights shows of each dataset.
 SHOWN = ("test/euclidean_mean_mm", "extrapolation/euclidean_mean_mm", "test/coverage_90")
-BATCH = 900
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,9 +85,11 @@ class Candidate:
 
 
 def last_night(client: MlflowClient, summary: Mapping[str, Any]) -> Night | None:
-    """The last campaign of the same configuration, else the last one of the same name; None where there is none."""
+    """The last campaign of the same configuration, else the last one of the same name; None where there is none whose
+    summary has the same format.
+    """
     experiment = experiment_of(client, EXPERIMENT)
-    of_name = {"kind": KIND, "campaign": summary["campaign"]}
+    of_name = {"kind": KIND, "campaign": summary["campaign"], FORMAT: str(summary["format"])}
     for tags in (of_name | {"configuration_sha256": summary["configuration_sha256"]}, of_name):
         nights = find(client, experiment, "attributes.status = 'FINISHED'", **tags)
         with_numbers = [run for run in nights if run.data.tags["verdict"] not in WITHOUT_NUMBERS]
@@ -112,8 +115,7 @@ def log_night(client: MlflowClient, record: NightRecord) -> str:
     run_id = str(client.create_run(experiment, int(1000 * record.started), tags, name).info.run_id)
     now = int(1000 * time.time())
     metrics = [Metric(key, value, now, 0) for key, value in _metrics(verdict, summary).items() if math.isfinite(value)]
-    for start in range(0, len(metrics), BATCH):
-        client.log_batch(run_id, metrics=metrics[start : start + BATCH])
+    log_points(client, run_id, metrics)
     client.log_text(run_id, json.dumps(verdict, indent=2, allow_nan=False), "verdict.json")
     client.log_text(run_id, record.page, "verdict.md")
     if summary and record.rows:
@@ -143,8 +145,7 @@ def _go_on_with_history(client: MlflowClient, campaign: str, metrics: Sequence[M
     step = int(run.data.metrics.get("night", 0)) + 1
     points = [Metric(one.key, one.value, one.timestamp, step) for one in metrics]
     points.append(Metric("night", step, points[0].timestamp, step))
-    for start in range(0, len(points), BATCH):
-        client.log_batch(run.info.run_id, metrics=points[start : start + BATCH])
+    log_points(client, run.info.run_id, points)
 
 
 def candidates(client: MlflowClient, datasets: Sequence[str]) -> list[Candidate]:
@@ -200,7 +201,7 @@ def _tags(record: NightRecord) -> dict[str, str]:
     tags = {name: str(verdict[name]) for name in known if verdict.get(name) is not None}
     tags |= {"verdict": verdict["outcome"], NOTE: record.page, **infinite_of(_metrics(verdict, summary))}
     if summary:
-        tags |= {"configuration_sha256": summary["configuration_sha256"]}
+        tags |= {"configuration_sha256": summary["configuration_sha256"], FORMAT: str(summary["format"])}
         tags |= {"environment_sha256": summary["software_sha256"]}
         for name, data in summary["datasets"].items():
             tags |= {f"data_sha256.{name}": data["sha256"], f"deployed.{name}": _deployed(data["deployed"])}

@@ -171,6 +171,12 @@ def set_tags(client: MlflowClient, run_id: str, tags: Mapping[str, str]) -> None
         client.set_tag(run_id, name, value)
 
 
+def log_points(client: MlflowClient, run_id: str, points: Sequence[Metric]) -> None:
+    """Log any number of points of metrics."""
+    for start in range(0, len(points), BATCH):
+        client.log_batch(run_id, metrics=points[start : start + BATCH])
+
+
 def log_artifacts(client: MlflowClient, run_id: str, record: Record) -> None:
     """Log the artifacts of a record; those that are there are replaced."""
     for file in record.files:
@@ -189,8 +195,8 @@ def _create(client: MlflowClient, experiment: str, record: Record) -> str:
     points = [(name, 0, value) for name, value in record.metrics.items()] + [*record.curves]
     metrics = [Metric(name, value, now, step) for name, step, value in points if math.isfinite(value)]
     params = [Param(name, str(value)) for name, value in record.params.items()]
-    for start in range(0, max(len(metrics), 1), BATCH):
-        client.log_batch(run_id, metrics=metrics[start : start + BATCH], params=params if start == 0 else ())
+    client.log_batch(run_id, metrics=metrics[:BATCH], params=params)
+    log_points(client, run_id, metrics[BATCH:])
     if record.inputs:
         client.log_inputs(run_id, list(record.inputs))
     log_artifacts(client, run_id, record)

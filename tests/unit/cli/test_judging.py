@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from softkin.campaigns.summary import FORMAT
 from softkin.cli.judging import Results, judge_results, log_failure
 from softkin.cli.workflow_process import Ended
 from softkin.core.files import write_json
@@ -40,10 +41,12 @@ def folder(tmp_path: Path, store: str) -> Path:
     return results
 
 
-def results(folder: Path, campaign: str, *, factor: float = 1.0, jobs: int = 3, **more: Any) -> Results:
+def results(
+    folder: Path, campaign: str, *, factor: float = 1.0, jobs: int = 3, dataset: str = "arm", **more: Any
+) -> Results:
     """Results of a night whose errors are `factor` times those of the first."""
     errors = factor * np.random.default_rng(0).exponential(size=60)
-    rows = pd.DataFrame({"dataset": "arm", "subset": "test", "row": [f"r{i}" for i in range(60)], "error_mm": errors})
+    rows = pd.DataFrame({"dataset": dataset, "subset": "test", "row": [f"r{i}" for i in range(60)], "error_mm": errors})
     rows.assign(command=rows["row"], width_mm=2.0, covered="11").to_parquet(folder / "tables" / "summary_rows.parquet")
     data = {
         "title": "Arm",
@@ -57,11 +60,12 @@ def results(folder: Path, campaign: str, *, factor: float = 1.0, jobs: int = 3, 
     data |= {"deployed": {"model": "gp", "preset": "tuned", "interval_method": "cps", "outside": "auto"}}
     data |= {"metrics": {"test/rmse_mm": factor}}
     summary = {
+        "format": more.pop("format", FORMAT),
         "campaign": campaign,
         "seed": 0,
         "confidence_level": 0.9,
         "configuration_sha256": "a",
-        "datasets": {"arm": data},
+        "datasets": {dataset: data},
     }
     summary["configuration"] = {"verdict": {"resamples": 999}, **more}
     write_json(folder / "tables" / "summary.json", summary)
@@ -86,6 +90,26 @@ def test_three_nights_and_a_gate(folder: Path, store: str) -> None:
     assert night(1.0) == "better"
     assert aliases_of(client, NAME)[CHAMPION] == "4"
     assert "nothing is worse than with version 1" in client.get_model_version(NAME, "4").tags["promoted_because"]
+
+
+def test_where_nothing_can_be_compared_the_newest_model_is_champion_and_says_so(folder: Path, store: str) -> None:
+    """Before the first campaign, and where the one before has a summary of another format."""
+    client: Any = client_of(store)
+    client.create_registered_model("softkin-leg")
+
+    def nominated() -> str:
+        version = str(client.create_model_version("softkin-leg", "file:///leg").version)
+        nominate(client, "softkin-leg", version)
+        return version
+
+    nominated()
+    for number in (FORMAT, FORMAT + 1):
+        version = nominated()
+        verdict = judge_results(results(folder, "leg", dataset="leg", format=number), refit=False)
+        assert verdict.outcome == "first"
+        assert aliases_of(client, "softkin-leg")[CHAMPION] == version
+        reason = client.get_model_version("softkin-leg", version).tags["promoted_because"]
+        assert reason == f"no campaign has numbers of version {int(version) - 1} that it could be compared with"
 
 
 def test_a_person_may_keep_the_gate(folder: Path, store: str) -> None:

@@ -8,6 +8,7 @@ from typing import Any
 import pandas as pd
 import pytest
 
+from softkin.campaigns.summary import FORMAT
 from softkin.tracking import Campaign
 from softkin.tracking.nights import (
     JUDGED_IN,
@@ -30,7 +31,7 @@ def summary(configuration: str = "a", name: str = "nightly") -> dict[str, Any]:
     deployed = {"model": "gp", "preset": "tuned", "interval_method": "scp_mapie", "outside": "auto"}
     data = {"sha256": "ab", "deployed": deployed, "metrics": {"test/rmse_mm": 1.5, "test/mean_width_mm_90": None}}
     sums = {"configuration_sha256": configuration, "software_sha256": "s"}
-    return {"campaign": name, **sums, "datasets": {"finger": data}}
+    return {"format": FORMAT, "campaign": name, **sums, "datasets": {"finger": data}}
 
 
 @pytest.fixture
@@ -73,6 +74,7 @@ def test_nights_are_kept_and_the_last_one_of_the_same_configuration_counts(clien
         assert night.run_id == expected
         pd.testing.assert_frame_equal(night.rows, ROWS)
     assert last_night(client, summary("a", "unknown")) is None
+    assert last_night(client, summary("a") | {"format": FORMAT + 1}) is None
 
 
 def test_nights_are_a_curve_in_one_run(client: Any, tmp_path: Path) -> None:
