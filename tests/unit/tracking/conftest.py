@@ -15,6 +15,7 @@ from softkin.core.files import write_json
 from softkin.core.runs import Run
 from softkin.core.samples import SUBSETS
 from softkin.tracking import Campaign, create_store
+from softkin.tracking.store import client_of, experiment_of
 
 DESCRIPTION = {
     "dataset": "finger",
@@ -41,6 +42,18 @@ def campaign(tmp_path: Path, empty_store: Path) -> Campaign:
     with closing(sqlite3.connect(empty_store)) as empty, closing(sqlite3.connect(path)) as copy:
         empty.backup(copy)
     return Campaign("nightly", seed=5, tracking_uri=f"sqlite:///{path}")
+
+
+@pytest.fixture
+def client(campaign: Campaign) -> Any:
+    """MLflow's client of that store; untyped, since MLflow types as absent what is there."""
+    return client_of(campaign.tracking_uri)
+
+
+@pytest.fixture
+def experiment(client: MlflowClient) -> str:
+    """An experiment of that store."""
+    return experiment_of(client, "finger")
 
 
 @pytest.fixture

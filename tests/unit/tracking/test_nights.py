@@ -6,10 +6,8 @@ from pathlib import Path
 from typing import Any
 
 import pandas as pd
-import pytest
 
 from softkin.campaigns.summary import FORMAT
-from softkin.tracking import Campaign
 from softkin.tracking.nights import (
     JUDGED_IN,
     Candidate,
@@ -21,7 +19,6 @@ from softkin.tracking.nights import (
     nights,
 )
 from softkin.tracking.promotion import REASON, aliases_of, nominate
-from softkin.tracking.store import client_of
 
 NAME = "softkin-finger"
 ROWS = pd.DataFrame({"dataset": ["finger"], "error_mm": [1.5]})
@@ -32,11 +29,6 @@ def summary(configuration: str = "a", name: str = "nightly") -> dict[str, Any]:
     data = {"sha256": "ab", "deployed": deployed, "metrics": {"test/rmse_mm": 1.5, "test/mean_width_mm_90": None}}
     sums = {"configuration_sha256": configuration, "software_sha256": "s"}
     return {"format": FORMAT, "campaign": name, **sums, "datasets": {"finger": data}}
-
-
-@pytest.fixture
-def client(campaign: Campaign) -> Any:
-    return client_of(campaign.tracking_uri)
 
 
 def logged(client: Any, folder: Path, outcome: str = "same", started: float = 1.0, **keys: Any) -> str:

@@ -5,21 +5,13 @@ from __future__ import annotations
 import time
 from typing import Any
 
-import pytest
-
-from softkin.tracking import Campaign
 from softkin.tracking.nights import JUDGED_IN, NightRecord, log_night, nights
 from softkin.tracking.promotion import nominate, promote
 from softkin.tracking.prune import remove, to_remove
 from softkin.tracking.records import Record, find, put
-from softkin.tracking.store import client_of, experiment_of
+from softkin.tracking.store import experiment_of
 
 NAME = "softkin-finger"
-
-
-@pytest.fixture
-def client(campaign: Campaign) -> Any:
-    return client_of(campaign.tracking_uri)
 
 
 def night(client: Any, started: float) -> str:

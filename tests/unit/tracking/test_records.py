@@ -9,21 +9,11 @@ from pathlib import Path
 import pytest
 from mlflow import MlflowClient
 
-from softkin.tracking import Campaign, records
+from softkin.tracking import records
 from softkin.tracking.records import BATCH, CONTENT, KEY, Record, find, put, retire, sweep, update
-from softkin.tracking.store import PARENT, client_of, experiment_of
+from softkin.tracking.store import PARENT
 
 RECORD = Record("nightly/finger/one", "finger · one", {"error": 1.0}, {"kind": "model"}, started=5_000, seconds=2.0)
-
-
-@pytest.fixture
-def client(campaign: Campaign) -> MlflowClient:
-    return client_of(campaign.tracking_uri)
-
-
-@pytest.fixture
-def experiment(client: MlflowClient) -> str:
-    return experiment_of(client, "finger")
 
 
 def test_a_run_shows_its_record(client: MlflowClient, experiment: str, tmp_path: Path) -> None:

@@ -17,16 +17,6 @@ from softkin.tracking import Campaign
 from softkin.tracking.store import client_of, common_tags, experiment_of, read_description
 
 
-@pytest.fixture
-def client(campaign: Campaign) -> MlflowClient:
-    return client_of(campaign.tracking_uri)
-
-
-@pytest.fixture
-def experiment(client: MlflowClient) -> str:
-    return experiment_of(client, "finger")
-
-
 def test_a_lost_store_is_an_error_with_a_fix(tmp_path: Path) -> None:
     uri = f"sqlite:///{tmp_path / 'none.db'}"
     with pytest.raises(StoreError, match="gone") as error:
