@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -48,7 +49,7 @@ class Watch:
         names: Sequence[str],
         rate: float = 0.01,
         seed: int = 0,
-        error: Callable[[Array, Array], Array] | None = None,
+        error: Callable[[Any, Any], Array] | None = None,
     ) -> None:
         from crepes.martingales import StepBettingFunction
 
@@ -60,10 +61,10 @@ class Watch:
         n_bets = self._bets.apply(np.array([0.5])).shape[1]
         self._capital = np.full((len(self.names), n_bets), 1 / n_bets)
 
-    def see(self, command: Array, position: Array) -> Alarm | None:
+    def see(self, command: Any, position: Any) -> Alarm | None:
         """The alarm, if there is one by now, after the `position` (mm) measured at `command`; both are vectors."""
         assert self.error is not None
-        return self.judge(self.error(np.asarray(command, dtype=np.float64), np.asarray(position, dtype=np.float64)))
+        return self.judge(self.error(command, position))
 
     def judge(self, error: Array) -> Alarm | None:
         """The same, given measured minus predicted position (n_coordinates,) in mm."""

@@ -92,7 +92,7 @@ class CalibratedModel:
 
     def follow(self, commands: calls.Rows, session: int | None = None) -> Array | pd.DataFrame:
         """Predicted positions (n_rows, n_coordinates) of commands sent one after the other, from rest."""
-        inputs = State(self, session).inputs(self._checked(commands))
+        inputs = State(self, session).inputs(commands)
         return like(commands, self._predicted(inputs), self.names.coordinates)
 
     def start(self, session: int | None = None, confidence_level: float = 0.9) -> State:
@@ -130,13 +130,13 @@ class CalibratedModel:
         rate = calls.level_of(rate, self.dataset, "rate of false alarms")
         state, names = State(self, session), self.names.coordinates
         moving = self._moving()
-        return Watch(
-            self._residuals()[:, moving],
-            [name for name, moves in zip(names, moving, strict=True) if moves],
-            rate,
-            seed,
-            lambda command, position: (position - self.predict(state.inputs(command[None]))[0])[moving],
-        )
+
+        def error(command: calls.Rows, position: calls.Rows) -> Array:
+            measured = calls.position_rows(position, self.names, 1, self.dataset)
+            return np.asarray((measured - self._predicted(state.input_of(command)))[0, moving])
+
+        moves = [name for name, moves in zip(names, moving, strict=True) if moves]
+        return Watch(self._residuals()[:, moving], moves, rate, seed, error)
 
     def intervals(
         self, commands: calls.Rows, confidence_levels: float | Sequence[float] | Array, predicted: Array | None = None

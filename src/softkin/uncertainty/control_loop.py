@@ -7,8 +7,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from softkin.core.errors import DataError
-from softkin.core.samples import Array, Samples
+from softkin.core.samples import Array
 from softkin.models.estimators.in_sessions import UNSEEN, InSessions
+from softkin.uncertainty import calls
 
 
 class Step(NamedTuple):
@@ -53,35 +54,44 @@ class State:
             "are wider by how much these differ, until a few labelled poses recalibrate it."
         )
 
-    def inputs(self, commands: Array) -> Array:
-        """What the model is given at `commands` (n_rows, n_commands), sent one after the other from here on."""
-        if self.estimator is None:
-            return commands
-        memory = self.estimator.robot.along(commands, self.memory, self.last)
-        if len(commands):
-            self.memory, self.last = memory[-1], commands[-1]
-        return np.column_stack([commands, memory, np.full(len(commands), self.session)])
+    def inputs(self, commands: calls.Rows) -> Array:
+        """What the model is given at `commands` (n_rows, n_commands), sent one after the other from here on.
 
-    def step(self, command: Array) -> Step:
+        Raises:
+            DataError: they are no such commands; nothing is sent.
+        """
+        return self._after(self._checked(commands))
+
+    def input_of(self, command: calls.Rows) -> Array:
+        """The same (1, n_inputs) of one command (n_commands,).
+
+        Raises:
+            DataError: it is no command, or several; nothing is sent.
+        """
+        rows = self._checked(command)
+        if len(rows) != 1:
+            raise DataError(
+                f"{len(rows)} commands, where one is sent at a time",
+                where=self.robot.dataset,
+                fix="send them one after the other, or all by `follow`",
+            )
+        return self._after(rows)
+
+    def step(self, command: calls.Rows) -> Step:
         """Send one command (n_commands,): position and interval."""
-        inputs = self.inputs(checked_rows(command, self.robot.train, self.robot.dataset))
+        inputs = self.input_of(command)
         predicted = self.robot.predict(inputs)
         bounds = self.robot.intervals(inputs, self.levels, predicted)[0, 0]
         return Step(predicted[0], bounds[:, 0], bounds[:, 1])
 
+    def _checked(self, commands: calls.Rows) -> Array:
+        n_commands = self.robot.train.commands.shape[1]
+        return calls.command_rows(commands, self.robot.names, n_commands, self.robot.dataset)
 
-def checked_rows(commands: Array, train: Samples, where: str) -> Array:
-    """Commands (n_rows, n_commands) of one row or more, or inputs (n_rows, n_inputs) of a recording like `train`.
-
-    Raises:
-        DataError: of another shape, or not finite.
-    """
-    rows = np.atleast_2d(np.asarray(commands, dtype=np.float64))
-    n_commands = train.commands.shape[1]
-    if rows.ndim != 2 or rows.shape[1] not in (n_commands, train.inputs.shape[1]) or not np.isfinite(rows).all():
-        raise DataError(
-            f"expected finite commands of shape (n_rows, {n_commands}), got {rows.shape}",
-            where=where,
-            fix=f"pass one row of {n_commands} finite numbers per pose",
-        )
-    return rows
+    def _after(self, commands: Array) -> Array:
+        """The inputs of commands that are checked; what the robot remembers then is kept."""
+        if self.estimator is None:
+            return commands
+        memory = self.estimator.robot.along(commands, self.memory, self.last)
+        self.memory, self.last = memory[-1], commands[-1]
+        return np.column_stack([commands, memory, np.full(len(commands), self.session)])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -86,6 +87,44 @@ def test_the_watch_notices_the_next_session(robot: CalibratedModel) -> None:
     assert watch.alarm is not None
     assert watch.alarm.pose <= 15
     assert "m1_x" in watch.alarm.coordinates
+
+
+@pytest.mark.parametrize(
+    ("command", "says"),
+    [
+        (ROWS.commands[:2], "2 commands, where one is sent at a time"),
+        (ROWS.inputs[0], "expected finite commands of shape"),
+        (["0.1", "0.2"], "commands are text"),
+        ([True, False], "commands are truth values"),
+        ([0.1, float("nan")], "no finite number"),
+    ],
+)
+def test_a_wrong_command_is_refused_and_moves_nothing(robot: CalibratedModel, command: Any, says: str) -> None:
+    state, watch = robot.start(), robot.watch()
+    with pytest.raises(DataError, match=says):
+        state.step(command)
+    assert state.last is None
+    with pytest.raises(DataError, match=says):
+        watch.see(command, ROWS.positions[0])
+    np.testing.assert_array_equal(state.step(ROWS.commands[0]), robot.start().step(ROWS.commands[0]))
+
+
+@pytest.mark.parametrize(
+    ("position", "says"), [([1.0, 2.0], "expected positions of shape"), ([1.0, np.nan, 2.0], "no finite number")]
+)
+def test_a_watch_sees_whole_positions_alone(robot: CalibratedModel, position: Any, says: str) -> None:
+    watch, other = robot.watch(), robot.watch()
+    with pytest.raises(DataError, match=says):
+        watch.see(ROWS.commands[0], position)
+    for one in (watch, other):
+        one.see(ROWS.commands[1], ROWS.positions[1])
+    np.testing.assert_array_equal(watch.errors, other.errors)
+    np.testing.assert_array_equal(watch.p_values, other.p_values)
+
+
+def test_a_sequence_is_of_commands_alone(robot: CalibratedModel) -> None:
+    with pytest.raises(DataError, match="expected finite commands of shape"):
+        robot.follow(ROWS.inputs[:3])
 
 
 def test_a_session_that_is_not_in_the_recording_is_an_error(robot: CalibratedModel) -> None:
