@@ -10,7 +10,7 @@ KIND ?= all
 BIN := .venv/bin
 # What a person gives: recipes read it from their environment, "$$FILE", as it is. Written into a recipe as $(FILE) a quote
 # or a $(...) in it would be run by the shell, and a $(...) by make.
-GIVEN := PYTHON CORES IN FILE NAME WRITE PORT KEEP NOTIFY AT KIND
+GIVEN := PYTHON CORES IN FILE NAME HEADER DELIMITER WRITE PORT KEEP NOTIFY AT KIND
 $(foreach name,$(GIVEN),$(eval override $(name) := $$(value $(name))))
 export $(GIVEN)
 export MLFLOW_DISABLE_TELEMETRY := true
@@ -165,7 +165,7 @@ benchmark-shells: .venv/installed
 
 # What a few labelled poses of a new session do to coverage and width, and how soon the alarm notices one.
 benchmark-recalibration: .venv/installed
-	$(BIN)/python -m benchmarks.recalibration $$SOFTKIN_DATA_MIRROR
+	$(BIN)/python -m benchmarks.recalibration $${SOFTKIN_DATA_MIRROR:+"$$SOFTKIN_DATA_MIRROR"}
 
 # Whether the figures of a robot of 100,000 rows stay under 500 MB.
 benchmark-figures: .venv/installed

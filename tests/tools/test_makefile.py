@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -46,6 +47,13 @@ def test_a_file_may_have_any_name(house: Path, value: str) -> None:
         "--",
         "a",
     ]
+    assert heard(house, "new-robot", FILE="a", HEADER=value, DELIMITER=value) == [
+        *module,
+        f"--header={value}",
+        f"--delimiter={value}",
+        "--",
+        "a",
+    ]
     assert heard(house, "new-robot", FILE="a", WRITE=value) == [*module, "--write", "--", "a"]
 
 
@@ -77,7 +85,8 @@ def test_the_interpreter_is_one_word(house: Path, value: str) -> None:
 def test_no_recipe_has_a_variable_that_a_person_gives() -> None:
     text = (HOUSE / "Makefile").read_text()
     names = next(line for line in text.splitlines() if line.startswith("GIVEN := ")).split()[2:]
-    assert {"FILE", "NAME", "CORES", "PYTHON", "IN", "WRITE"} <= set(names)
+    used = set(re.findall(r"\$\$\{?([A-Z_]+)", text)) - {"HOME", "SOFTKIN_DATA_MIRROR"}
+    assert {"FILE", "NAME", "CORES", "IN", "WRITE", "HEADER", "DELIMITER"} <= used <= set(names)
     defaults = [line.split("?=")[0].strip() for line in text.splitlines() if "?=" in line]
     assert set(defaults) <= set(names)
     recipes = [line for line in text.splitlines() if line.startswith("\t")]
