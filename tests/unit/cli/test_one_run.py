@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 import subprocess
 import sys
 import time
@@ -31,7 +32,7 @@ def started_job(folder: Path) -> subprocess.Popen[bytes]:
     script.parent.mkdir(parents=True, exist_ok=True)
     script.write_text(JOB)
     # In a session of its own, started by a shell that ends: nobody above it is Snakemake.
-    command = f"exec {sys.executable} {script.relative_to(folder)} fit"
+    command = f"exec {shlex.quote(sys.executable)} {script.relative_to(folder)} fit"
     return subprocess.Popen(["sh", "-c", command], cwd=folder, start_new_session=True)
 
 
