@@ -23,7 +23,8 @@ from softkin.uncertainty.regions import REGION_METHODS
 # the time.
 os.environ.update(OMP_NUM_THREADS="1")
 
-# What Snakemake builds before its first job is no garbage, and looking for some takes a tenth of a large dry run.
+# What Snakemake builds before its first job is no garbage, and looking for some takes a tenth of a large dry run;
+# `start_of_jobs` has it looked for again.
 if workflow.is_main_process:
     gc.disable()
 

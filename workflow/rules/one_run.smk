@@ -46,7 +46,11 @@ def start_of_jobs():
 
 
 def describe_results():
-    """Write what the run made, from what and when, as a Workflow Run RO-Crate beside the results."""
+    """Write what the run made, from what and when, as a Workflow Run RO-Crate beside the results: of a run that has all
+    of them.
+    """
+    if PARTIAL in os.environ:
+        return
     write_crate(
         "results",
         workflow=Path(workflow.basedir) / "Snakefile",
@@ -57,9 +61,6 @@ def describe_results():
 
 
 STARTED = []
-# What Snakemake builds before its first job is no garbage: looking for some takes a tenth of a large dry run.
-if workflow.is_main_process:
-    gc.disable()
 if workflow.is_main_process and not only_looks(sys.argv):
     RUN = OneRun.of(Path.cwd())
     take_folder()

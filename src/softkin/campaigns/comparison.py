@@ -1,8 +1,7 @@
 """Compare two campaigns row by row, and tell news from noise.
 
 A number is worse when it is worse by more than its tolerance and the difference is no chance. Rows of one command say
-the same thing, so commands are compared and not rows. All comparisons of two campaigns are corrected for how many they
-are
+the same thing, so commands are compared and not rows. All comparisons of two campaigns are corrected for their number
 (Holm 1979).
 """
 

@@ -1,6 +1,7 @@
 """Describe the results of a run as a Workflow Run RO-Crate: the files a workflow made, from what, when, their hashes.
 
-The profile is https://w3id.org/ro/wfrun/workflow/0.5, of RO-Crate 1.1; `rocrate-validator validate` accepts it.
+The profile is https://w3id.org/ro/wfrun/workflow/0.5, of RO-Crate 1.1. `rocrate-validator` found no fault in it where
+it was given the contexts that it downloads otherwise; no test runs it.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from urllib.parse import quote
 
 from softkin import __version__
 from softkin.core.files import write_json
-from softkin.core.job_records import read_record
+from softkin.core.job_records import records
 
 METADATA = "ro-crate-metadata.json"
 CRATE = "https://w3id.org/ro/crate/1.1"
@@ -123,8 +124,7 @@ def _about(title: str, ended: float, files: Iterable[Mapping[str, Any]]) -> list
 
 def _recorded(folder: Path) -> Iterable[tuple[str, dict[str, Any]]]:
     """(rule, entity) of each file that a job recorded and that is there."""
-    for record in sorted((folder / "manifest").rglob("*.json")):
-        content = read_record(record) or {"job": "", "files": {}}
+    for content in filter(None, (content for _, content in records(folder))):
         for name, known in content["files"].items():
             path = folder.parent / name
             if path.is_file() and path.name != METADATA:

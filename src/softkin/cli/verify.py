@@ -12,8 +12,7 @@ from pathlib import Path
 
 from softkin.cli.recompute import recomputed
 from softkin.cli.redo import sentences
-from softkin.core.files import read_json
-from softkin.core.job_records import FOLDER, damages, read_record
+from softkin.core.job_records import FOLDER, damages, records
 
 
 def verify(results: Path) -> list[str]:
@@ -21,20 +20,22 @@ def verify(results: Path) -> list[str]:
     if not (results / FOLDER).is_dir():
         return [f"{results / FOLDER} is not there: no job has recorded what it wrote"]
     found = sentences(list(damages(results, thorough=True)))
-    broken = [path for path in sorted((results / FOLDER).rglob("*.json")) if read_record(path) is None]
-    found += [f"{path} is no record of a job" for path in broken]
+    found += [f"{path} is no record of a job" for path, content in records(results) if content is None]
     found += [f"{path} was written by no job that is recorded" for path in unrecorded(results)]
     return found + list(recomputed(results))
 
 
 def unrecorded(results: Path) -> list[Path]:
     """Models and tables below `results` that no record names."""
-    known = set()
-    for record in (results / FOLDER).rglob("*.json"):
-        known |= {results.parent / name for name in (read_record(record) or {"files": {}})["files"]}
+    known = recorded(results)
     files = [path for ending in ("joblib", "parquet", "csv") for path in results.rglob(f"*.{ending}")]
     own = ("studies", "logs", "benchmarks")
     return sorted(path for path in files if path not in known and path.relative_to(results).parts[0] not in own)
+
+
+def recorded(results: Path) -> set[Path]:
+    """The files that a record names."""
+    return {results.parent / name for _, content in records(results) if content for name in content["files"]}
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -48,7 +49,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if found:
         print("verify: the next run makes anew what was changed or is gone: make run")
         return 1
-    n_files = sum(len(read_json(record)["files"]) for record in (results / FOLDER).rglob("*.json"))
+    n_files = len(recorded(results))
     print(f"verify: {n_files} files are as they were written, and the tables are what the stored predictions give")
     return 0
 

@@ -9,7 +9,7 @@ import signal
 import subprocess
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from types import FrameType
@@ -55,7 +55,7 @@ def run_workflow(command: Sequence[str], *, directory: Path, results: Path, refi
     before = _counted(results)
     (results / JOBS).unlink(missing_ok=True)
     cpu, stopped = _children_cpu(), ""
-    with _studies_aside(results) if refit else _nothing():
+    with _studies_aside(results) if refit else nullcontext():
         with subprocess.Popen(command, cwd=directory, start_new_session=True) as process, _signals():
             try:
                 code = process.wait()
@@ -114,11 +114,6 @@ def _signals() -> Iterator[None]:
     finally:
         for number, handler in old.items():
             signal.signal(number, handler)
-
-
-@contextmanager
-def _nothing() -> Iterator[None]:
-    yield
 
 
 @contextmanager

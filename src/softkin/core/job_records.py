@@ -64,7 +64,7 @@ def recorded_sha256(path: str | Path) -> str | None:
     for root in absolute.parents:
         if (root / FOLDER).is_dir():
             name, group = absolute.relative_to(root.parent).as_posix(), absolute.relative_to(root).parts[0]
-            for record in [*_records(root / FOLDER / group), *_records(root / FOLDER)]:
+            for record in [*sorted((root / FOLDER / group).glob("*.json")), *sorted((root / FOLDER).glob("*.json"))]:
                 content = read_record(record) or {"files": {}}
                 if name in content["files"]:
                     return str(content["files"][name]["sha256"])
@@ -99,8 +99,7 @@ def damages(results: str | Path, *, thorough: bool) -> Iterator[Damage]:
     turn out to be the same are recorded: a project that was moved is read once.
     """
     root = Path(results)
-    for record in [*_records(root / FOLDER), *_records(root / FOLDER, "*/*.json")]:
-        content = read_record(record)
+    for record, content in records(root):
         if content is None:
             continue
         new_times = False
@@ -120,6 +119,12 @@ def damages(results: str | Path, *, thorough: bool) -> Iterator[Damage]:
             write_json(record, content)
 
 
+def records(results: str | Path) -> Iterator[tuple[Path, dict[str, Any] | None]]:
+    """Each record of a job below `results`, with its content; None where it is none."""
+    for record in sorted(Path(results, FOLDER).rglob("*.json")):
+        yield record, read_record(record)
+
+
 def read_record(record: Path) -> dict[str, Any] | None:
     """The content of a record; None where it is none, which makes what it recorded unknown."""
     try:
@@ -137,10 +142,6 @@ def _names_in(log: str | Path) -> tuple[str, ...]:
     """Rule and wildcards of the job that has this log."""
     parts = Path(log).with_suffix("").parts
     return parts[len(parts) - parts[::-1].index("logs") :]
-
-
-def _records(folder: Path, pattern: str = "*.json") -> list[Path]:
-    return sorted(folder.glob(pattern))
 
 
 def _files_of(output: Path) -> list[Path]:
