@@ -33,6 +33,17 @@ from softkin.core.samples import (
     informative_coordinates,
 )
 from softkin.data.table import read_subset
+from softkin.evaluation.recorded_names import (
+    ADAPTIVE,
+    COLUMNS,
+    FIRST_POSES,
+    FIXED_WEIGHTS,
+    LATER,
+    NEXT_SESSION,
+    PLAIN,
+    PUBLISHED,
+    RECALIBRATED,
+)
 from softkin.models.spec import ModelSpec
 from softkin.training.kinematic_model import STATIC, FitSettings, fitted_model
 from softkin.uncertainty.conformal import around, conformal_limits, weighted_limits
@@ -41,11 +52,6 @@ from softkin.uncertainty.labelled.fixed_weights import DECAY
 from softkin.uncertainty.new_session import zero_spread
 from softkin.uncertainty.recalibration import recalibration
 
-PUBLISHED, NEXT_SESSION, LATER = "published", "next_session", "later"
-PLAIN, RECALIBRATED, FIRST_POSES = "split conformal", "recalibrated", "recalibrated on the first poses"
-ADAPTIVE, FIXED_WEIGHTS = "adaptive", "fixed weights"
-COLUMNS = ["dataset", "split", "model", "preset", "memory", "subset", "method", "rmse_mm", "mae_mm", "coverage"]
-COLUMNS += ["mean_width_mm", "winkler_mm", "n_recalibration_poses"]
 N_POSES, N_DRAWS, N_FOLDS, LATER_SHARE = (5, 10, 20), 200, 5, 0.8
 
 
@@ -71,7 +77,7 @@ class Part:
 
 
 def score_recorded(table: str | Path, *, dataset: str, run: RecordedRun | None, output: str | Path) -> None:
-    """Write the scores of a run in time (CSV, `COLUMNS`), mm; without a recording or a run the columns alone.
+    """Write the scores of a run in time (CSV, columns as in `recorded_names`), mm; without a recording or a run none.
 
     Coverage, width and Winkler score are means over moving coordinates. Of `N_DRAWS` draws of labelled poses, means.
 

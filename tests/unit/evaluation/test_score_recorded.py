@@ -10,7 +10,8 @@ import pytest
 
 from softkin.core.samples import SUBSETS, Samples
 from softkin.data.table import to_table, write_table
-from softkin.evaluation.score_recorded import COLUMNS, RecordedRun, in_time, next_sessions, score_recorded
+from softkin.evaluation.recorded_names import COLUMNS
+from softkin.evaluation.score_recorded import RecordedRun, in_time, next_sessions, score_recorded
 from softkin.models import MODELS
 from softkin.training.kinematic_model import FitSettings
 from tests.conftest import four_subsets

@@ -5,13 +5,14 @@ from __future__ import annotations
 import pandas as pd
 
 from softkin.core.samples import SUBSETS
+from softkin.evaluation.recorded_names import LATER, NEXT_SESSION, PUBLISHED
 from softkin.reporting.page.grid import Cell, Column, Grid, filtered_columns, number, number_columns, share
 from softkin.reporting.page.marks import Marks
 from softkin.reporting.tables.claims import HOLDS
 from softkin.reporting.titles import Titles
 
 #: What the splits are called.
-SPLITS = {"published": "as published", "next_session": "next session", "later": "later"}
+SPLITS = {PUBLISHED: "as published", NEXT_SESSION: "next session", LATER: "later"}
 
 
 def recorded_grid(recorded: pd.DataFrame, titles: Titles, marks: Marks) -> Grid:

@@ -8,6 +8,8 @@ from typing import Any
 import pandas as pd
 
 from softkin.core.samples import TEST
+from softkin.evaluation.recorded_names import NEXT_SESSION, PLAIN, PUBLISHED
+from softkin.models.estimators.memory_features import NONE
 
 HOLDS, DOES_NOT = "not contradicted", "does not hold"
 COLUMNS = ["claim", "source", "dataset", "verdict", "numbers"]
@@ -47,12 +49,12 @@ def _time_independence(scores: pd.DataFrame, dataset: str, card: Mapping[str, An
         if "effect_mm" in zeros:
             widest = max(zeros["effect_mm"].values())
             numbers.append(f"zeros of sessions differ by up to {widest:.1f} mm (p = {zeros['p_value']:.3g})")
-    on_test = scores[(scores["split"] == "published") & (scores["subset"] == TEST)].set_index("memory")
+    on_test = scores[(scores["split"] == PUBLISHED) & (scores["subset"] == TEST)].set_index("memory")
     if len(on_test) > 1:
-        before, after = on_test.loc["none", "rmse_mm"], on_test.drop("none")["rmse_mm"].iloc[0]
+        before, after = on_test.loc[NONE, "rmse_mm"], on_test.drop(NONE)["rmse_mm"].iloc[0]
         numbers.append(f"memory and session take the RMSE on test from {before:.2f} to {after:.2f} mm")
-    plain = scores[(scores["split"] == "next_session") & (scores["n_recalibration_poses"] == 0)]
-    plain = plain[plain["method"] == "split conformal"]
+    plain = scores[(scores["split"] == NEXT_SESSION) & (scores["n_recalibration_poses"] == 0)]
+    plain = plain[plain["method"] == PLAIN]
     if len(plain):
         worst = plain.loc[plain["coverage"].idxmin()]
         numbers.append(
@@ -83,8 +85,8 @@ def with_memory(dataset: str, sources: Mapping[str, Mapping[str, Any]], recorded
     ]
     if recorded is None or "paper_table" not in sources[dataset]:
         return []
-    rows = recorded[recorded["dataset"].isin(twins) & (recorded["split"] == "published")]
-    rows = rows[rows["memory"] != "none"]
+    rows = recorded[recorded["dataset"].isin(twins) & (recorded["split"] == PUBLISHED)]
+    rows = rows[rows["memory"] != NONE]
     return [
         f"With memory and session ({row.dataset}: {row.model}, {row.preset}), {row.subset}: RMSE {row.rmse_mm:.2f} mm, "
         f"MAE {row.mae_mm:.2f} mm."
