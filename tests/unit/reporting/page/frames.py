@@ -112,7 +112,7 @@ def published_intervals() -> pd.DataFrame:
     row: dict[str, Any] = {"dataset": "arm", "interval_method": "scp_mapie", "metric": "coverage", "printed": "0.90"}
     row |= {"honest_value": 0.5, "honest_verdict": "lower", "nearest_value": 0.9, "nearest_verdict": "reproduced"}
     row |= {"nearest_coordinate": "m1_z", "nearest_model": "gb", "nearest_preset": "paper"}
-    return pd.DataFrame([row]).assign(nearest_interval_method="cps", nearest_confidence_level=0.95, explanation="...")
+    return pd.DataFrame([row]).assign(nearest_interval_method="cps", nearest_confidence_level=0.95, nearest_of=840)
 
 
 def searched_runs() -> pd.DataFrame:

@@ -27,9 +27,17 @@ def test_a_cell_has_value_and_verdict_of_each_preset_that_was_run() -> None:
     assert texts(grid.rows[0])[-2:] == ["1.30", "–"]  # not scored, no verdict
 
 
-def test_what_comes_nearest_to_a_printed_interval_is_named() -> None:
-    (row,) = intervals_grid(frames()["published_intervals"], TITLES, NO_MARKS).rows
-    assert texts(row) == [
-        *("arm", "SCP (MAPIE)", "Coverage", "0.90", "0.500", "lower", "0.900", "reproduced"),
-        "m1_z, System around Gradient boosting, paper at 95 %",
-    ]
+def test_the_badge_of_table_6_is_that_of_the_average() -> None:
+    grid = intervals_grid(frames()["published_intervals"], TITLES, NO_MARKS)
+    (row,) = grid.rows
+    assert texts(row) == ["arm", "SCP (MAPIE)", "Coverage", "0.90", "0.500", "lower"]
+    assert row[-1].verdict == "lower"
+
+
+def test_what_comes_nearest_is_a_footnote_that_names_its_freedom() -> None:
+    general, of_cell = intervals_grid(frames()["published_intervals"], TITLES, NO_MARKS).remarks
+    assert "decide nothing" in general
+    assert of_cell == (
+        "arm, SCP (MAPIE): of 840 combinations m1_z, System around Gradient boosting, paper at 95 %: "
+        "0.900 (printed 0.90)."
+    )

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import numpy as np
 import pandas as pd
 import pytest
 
@@ -50,6 +51,13 @@ def test_each_cell_faces_our_average_and_the_nearest_coordinate() -> None:
     )
     assert cells.loc[("scp_crepes", "coverage"), "nearest_verdict"] == "reproduced"
     assert cells.loc[("cqr", "coverage"), "honest_verdict"] == "lower"
+
+
+def test_the_freedom_of_the_search_is_counted() -> None:
+    cells = compare_intervals(PUBLISHED, metrics(), point(1.0)).set_index(["interval_method", "metric"])
+    assert set(cells["nearest_of"]) == {2}  # two coordinates of one run, method and level
+    endless = metrics().assign(winkler_mm=lambda rows: rows["winkler_mm"].where(rows["coordinate"] != "m1_x", np.inf))
+    assert set(compare_intervals(PUBLISHED, endless, point(1.0))["nearest_of"]) == {1}
 
 
 @pytest.mark.parametrize(
