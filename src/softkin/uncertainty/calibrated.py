@@ -15,6 +15,7 @@ from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.calibration_data import Shell
 from softkin.uncertainty.conformal import error_scale
 from softkin.uncertainty.intervals.spec import IntervalMethod
+from softkin.uncertainty.joint_region import joint_region
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,8 +65,10 @@ def calibrated(
         known["train_spread"] = model.spread(train.inputs)
         known["calibration_spread"] = model.spread(validation.inputs)
         known["new_spread"] = known["calibration_spread"][:0]
-    errors = np.abs(train.positions - model.estimator.predict(train.inputs))
-    scale = error_scale(errors[:, informative_coordinates(train.positions)])
+    moving = informative_coordinates(train.positions)
+    residuals = train.positions - model.estimator.predict(train.inputs)
+    scale = error_scale(np.abs(residuals[:, moving]))
+    joint = joint_region(residuals, validation.positions - predicted, moving, shells)
     data = method.calibrated_on(**known)
     return CalibratedModel(
         model.dataset,
@@ -76,6 +79,7 @@ def calibrated(
         train,
         data,
         scale,
+        joint,
         shells,
         norm,
         about=about or {},

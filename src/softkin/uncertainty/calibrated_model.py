@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -11,7 +11,6 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from softkin.core.errors import DataError, ResultError
 from softkin.core.samples import Array, Samples, informative_coordinates
 from softkin.models.spec import ModelSpec
 from softkin.training.predict import spread_of
@@ -22,13 +21,13 @@ from softkin.uncertainty.calibration_data import PointCalibration, Shell, Spread
 from softkin.uncertainty.conformal import around, conformal_limit, joint_scores, p_values
 from softkin.uncertainty.control_loop import State
 from softkin.uncertainty.described import described
+from softkin.uncertainty.file_format import restore, stored_state
 from softkin.uncertainty.intervals.spec import IntervalMethod
-from softkin.uncertainty.new_session import widened, zero_spread
+from softkin.uncertainty.joint_intervals import JointAnswers, JointIntervals
+from softkin.uncertainty.joint_region import JointRegion
+from softkin.uncertainty.new_session import labelled_errors, widened, zero_spread
 from softkin.uncertainty.prepared import Prepared
 from softkin.uncertainty.recalibration import Recalibration, recalibration
-
-#: Of the file: raised by one when what is in it changes. A file of another format is refused.
-FORMAT = 2
 
 
 @dataclass(frozen=True, repr=False)
@@ -73,6 +72,8 @@ class CalibratedModel:
     known: PointCalibration
     #: Typical error (n_moving,) of each moving coordinate on `train`, mm.
     scale: Array
+    #: The region that holds a whole pose.
+    joint: JointRegion
     #: The same model refitted on cores of `train`; none: intervals in extrapolation are as in-domain.
     shells: Sequence[Shell] = ()
     #: Command norm, (n_rows, n_commands) -> (n_rows,).
@@ -109,20 +110,8 @@ class CalibratedModel:
         Raises:
             DataError: a number of poses that is not taken, poses in extrapolation, or poses that contradict each other.
         """
-        inputs = self._checked(commands)
-        if inputs.shape[1] == self.train.commands.shape[1]:
-            inputs = State(self).inputs(inputs)
-        outside = self.is_outside(inputs)
-        if outside.any():
-            raise DataError(
-                f"{int(outside.sum())} of {len(inputs)} commands lie in extrapolation, where errors are larger",
-                where=f"{self.dataset}, pose {int(np.argmax(outside))}",
-                fix="label poses at commands like those of `train`",
-            )
-        bare = replace(self, recalibration=None)
-        errors = calls.position_rows(positions, self.names, len(inputs), self.dataset) - bare.predict(inputs)
-        spread = zero_spread(self.estimator)
-        found = recalibration(bare._residuals(), errors, self._moving(), spread, self.dataset)
+        errors, spread = labelled_errors(self, commands, positions), zero_spread(self.estimator)
+        found = recalibration(self._residuals(), errors, self._moving(), spread, self.dataset)
         return replace(self, recalibration=found)
 
     def watch(self, rate: float = 0.01, session: int | None = None, seed: int = 0) -> Watch:
@@ -158,6 +147,16 @@ class CalibratedModel:
         if isinstance(commands, (pd.DataFrame, pd.Series)):
             return bounds_frame(commands, bounds, None if is_one else levels, self.names.coordinates)
         return bounds[0] if is_one else bounds
+
+    def joint_intervals(
+        self, commands: calls.Rows, confidence_levels: float | Sequence[float] | Array
+    ) -> JointIntervals:
+        """Regions that each hold a whole pose, all moving coordinates at once: `bounds` as of `intervals`, the
+        `matrices` of ellipsoids, and `contains(positions)`. Box or ellipsoids, as chosen on `train`.
+
+        In-domain they are of one size, exactly calibrated; in extrapolation, given shells, they grow as `intervals` do.
+        """
+        return self._joint.intervals(commands, confidence_levels)
 
     def is_outside(self, commands: calls.Rows) -> NDArray[np.bool_] | pd.Series:
         """Which commands (n_rows,) lie in extrapolation, where nothing is guaranteed."""
@@ -195,16 +194,10 @@ class CalibratedModel:
         return described(self)
 
     def __getstate__(self) -> dict[str, Any]:
-        return {"format": FORMAT} | {one.name: getattr(self, one.name) for one in fields(self)}
+        return stored_state(self)
 
     def __setstate__(self, state: Any) -> None:
-        number = state.get("format", 1) if isinstance(state, dict) else 1
-        if number != FORMAT:
-            raise ResultError(
-                f"a calibrated model of format {number}, where this version of softkin reads {FORMAT}",
-                fix="run the workflow again with this version, or use the version that wrote it",
-            )
-        self.__dict__.update({one.name: state[one.name] for one in fields(self)})
+        restore(self, state)
 
     def _predicted(self, inputs: Array) -> Array:
         """Positions (n_rows, n_coordinates) of inputs that are checked."""
@@ -242,6 +235,10 @@ class CalibratedModel:
     @cached_property
     def _prepared(self) -> Prepared:
         return Prepared(self.method, self.known, self.shells, self.norm)
+
+    @cached_property
+    def _joint(self) -> JointAnswers:
+        return JointAnswers(self)
 
     @cached_property
     def names(self) -> calls.Names:

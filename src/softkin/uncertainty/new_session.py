@@ -1,15 +1,19 @@
-"""Intervals in a session never seen: wider by how much zeros differ between the sessions that are known."""
+"""A session never seen: intervals are wider by how much zeros differ between the known ones; labelled poses of it."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from scipy.stats import t
 
+from softkin.core.errors import DataError
 from softkin.core.samples import Array
 from softkin.models.estimators.in_sessions import InSessions
+from softkin.uncertainty import calls
+from softkin.uncertainty.control_loop import State
 
 
 def zero_spread(estimator: Any) -> Array | None:
@@ -32,14 +36,45 @@ def widened(
         inputs: of the rows; bare commands are of no known session.
         confidence_levels: of the bounds.
     """
+    zero = unseen_zero(estimator, inputs, confidence_levels)
+    if zero is None:
+        return bounds
+    sides = bounds - predicted[..., None]
+    return np.asarray(predicted[..., None] + np.sign(sides) * np.hypot(sides, zero[..., None]))
+
+
+def unseen_zero(estimator: Any, inputs: Array, confidence_levels: Sequence[float]) -> Array | None:
+    """How far (n_levels, n_rows, n_coordinates) in mm the zero of a session never seen lies from the average at most,
+    at each level; 0 for rows of known sessions, None where there is none else.
+    """
     spread = zero_spread(estimator)
     if spread is None:
-        return bounds
+        return None
     n_sessions = len(estimator.sessions_)
     unseen = ~np.isin(estimator.inputs(inputs)[:, -1], estimator.sessions_)
     if not unseen.any():
-        return bounds
+        return None
     quantiles = t.ppf((1 + np.asarray(confidence_levels)) / 2, n_sessions - 1)
-    zero = quantiles[:, None, None] * spread * np.sqrt(1 + 1 / n_sessions) * unseen[:, None]
-    sides = bounds - predicted[..., None]
-    return np.asarray(predicted[..., None] + np.sign(sides) * np.hypot(sides, zero[..., None]))
+    return np.asarray(quantiles[:, None, None] * spread * np.sqrt(1 + 1 / n_sessions) * unseen[:, None])
+
+
+def labelled_errors(robot: Any, commands: calls.Rows, positions: calls.Rows) -> Array:
+    """Measured minus predicted positions (n_poses, n_coordinates) in mm of the labelled poses of a new session.
+
+    Raises:
+        DataError: a pose lies in extrapolation, or is none.
+    """
+    n_commands = robot.train.commands.shape[1]
+    inputs = calls.command_rows(commands, robot.names, robot.train.inputs.shape[1], robot.dataset)
+    if inputs.shape[1] == n_commands:
+        inputs = State(robot).inputs(inputs)
+    outside = robot.is_outside(inputs)
+    if outside.any():
+        raise DataError(
+            f"{int(outside.sum())} of {len(inputs)} commands lie in extrapolation, where errors are larger",
+            where=f"{robot.dataset}, pose {int(np.argmax(outside))}",
+            fix="label poses at commands like those of `train`",
+        )
+    bare = replace(robot, recalibration=None)
+    measured = calls.position_rows(positions, robot.names, len(inputs), robot.dataset)
+    return np.asarray(measured - bare.predict(inputs))

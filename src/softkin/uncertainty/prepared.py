@@ -63,16 +63,22 @@ class Prepared:
         outside = self.is_outside(data.new_commands)
         if not outside.any():
             return bounds
-        limits, of_growths = self._limits(levels)
-        distances = np.maximum(self.norm(data.new_commands) / self.radius, 1.0)
-        widest = np.broadcast_to(limits, (len(levels), *data.new.shape))
-        for growth, largest in zip(self.growths, of_growths, strict=True):
-            widest = np.maximum(widest, largest[:, None] * growth.of_new(distances))
-        wider = around(data.new, widest)
+        wider = around(data.new, self.half_widths_outside(data.new_commands, levels))
         if self.method.calibrated_on.has_spread:
             lower, upper = np.minimum(bounds[..., 0], wider[..., 0]), np.maximum(bounds[..., 1], wider[..., 1])
             wider = np.stack([lower, upper], axis=-1)
         return np.where(outside[:, None, None], wider, bounds)
+
+    def half_widths_outside(self, commands: Array, levels: Levels) -> Array:
+        """Half-widths (n_levels, n_rows, n_coordinates) in mm that commands (n_rows, n_commands) have where they lie in
+        extrapolation; there must be shells.
+        """
+        limits, of_growths = self._limits(levels)
+        distances = np.maximum(self.norm(commands) / self.radius, 1.0)
+        widest = np.broadcast_to(limits, (len(levels), len(commands), limits.shape[-1]))
+        for growth, largest in zip(self.growths, of_growths, strict=True):
+            widest = np.maximum(widest, largest[:, None] * growth.of_new(distances))
+        return np.asarray(widest)
 
     def is_outside(self, commands: Array) -> NDArray[np.bool_]:
         """Which commands (n_rows, n_commands) lie in extrapolation, (n_rows,); as

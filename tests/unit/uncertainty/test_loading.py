@@ -15,7 +15,7 @@ import pytest
 import softkin
 from softkin.core.errors import ResultError
 from softkin.core.job_records import record_job
-from softkin.uncertainty import calibrated_model
+from softkin.uncertainty import file_format
 from softkin.uncertainty.loading import load
 from tests.unit.uncertainty.small_robot import small_robot
 
@@ -71,16 +71,11 @@ def test_what_was_changed_is_never_run(model: Path, arguments: dict[str, Any]) -
 
 
 def test_another_format_is_refused_in_a_sentence(model: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(calibrated_model, "FORMAT", calibrated_model.FORMAT + 1)
-    with pytest.raises(ResultError, match="of format 2, where this version of softkin reads 3") as caught:
+    monkeypatch.setattr(file_format, "FORMAT", file_format.FORMAT + 1)
+    with pytest.raises(ResultError, match="of format 3, where this version of softkin reads 4") as caught:
         load(model)
     assert caught.value.where == str(model)
     assert "run the workflow again" in str(caught.value.fix)
-
-
-def test_the_format_before_it_had_a_number_is_refused() -> None:
-    with pytest.raises(ResultError, match="of format 1, where this version of softkin reads 2"):
-        calibrated_model.CalibratedModel.__new__(calibrated_model.CalibratedModel).__setstate__(["arm", None])
 
 
 @pytest.mark.parametrize(

@@ -4,11 +4,43 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from softkin.core.samples import Array
+from softkin.uncertainty.conformal import conformal_limit
+
+
+class Shape(Protocol):
+    """A region around a predicted pose up to its size, known from `train` alone; of the moving coordinates, in mm."""
+
+    @property
+    def kind(self) -> str:
+        """`box` or `ellipsoids`."""
+        ...
+
+    @property
+    def unit_size_mm(self) -> float:
+        """Side of a cube of the volume that the region has at size 1."""
+        ...
+
+    @property
+    def half_widths(self) -> Array:
+        """Half the extent (n_coordinates,) of the region of size 1 along each axis."""
+        ...
+
+    @property
+    def matrix(self) -> Array | None:
+        """Of ellipsoids of size 1, a block A (n_coordinates, n_coordinates) in mm2 for each marker, whose residuals r
+        in it have r' A^-1 r <= 1; None: a box.
+        """
+        ...
+
+    def scores(self, residuals: Array) -> Array:
+        """The size (n_rows,) from which on the region holds a residual (n_rows, n_coordinates)."""
+        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,9 +60,20 @@ class RegionMethod:
     `region(train_residuals, calibration_residuals, markers, confidence_level)`: residuals (n_rows, n_coordinates) in
     mm of the moving coordinates; `markers` (n_coordinates,) says which marker each belongs to. `is_exact`: its joint
     coverage has the beta-binomial distribution of a conformal rank; else it is at least the nominal level.
+    `shape(train_residuals, markers)`: what a calibrated model can hold; None: it cannot hold this one.
     """
 
     name: str
     title: str
     is_exact: bool
     region: Callable[[Array, Array, NDArray[np.intp], float], Region]
+    shape: Callable[[Array, NDArray[np.intp]], Shape] | None = None
+
+
+def of_shape(shape: Shape, residuals: Array, confidence_level: float) -> Region:
+    """The region of a shape whose size is the conformal limit of the residuals of the calibration set."""
+    limit = conformal_limit(shape.scores(residuals), confidence_level)
+    return Region(
+        covers=lambda new: np.asarray(shape.scores(new) <= limit),
+        size_mm=shape.unit_size_mm * limit,
+    )
