@@ -25,6 +25,8 @@ CONSTANT_RANGE_MM = 1e-6
 #: where interval methods are compared; on fewer rows of `train` no model can be tuned on folds and shells.
 MIN_CALIBRATION_ROWS = 5
 MIN_ROWS = {TRAIN: 20, VALIDATION: MIN_CALIBRATION_ROWS, TEST: 2, EXTRAPOLATION: 2}
+#: From as many rows of `validation` on, intervals at 95 % are finite: 0.95 (n + 1) <= n. Source: Lei et al. (2018).
+ROWS_FOR_95_PERCENT = 19
 #: Arithmetic on larger numbers overflows.
 MAX_MAGNITUDE = 1e100
 

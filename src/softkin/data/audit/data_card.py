@@ -20,6 +20,9 @@ from softkin.data.table import read_subset
 
 logger = logging.getLogger("softkin")
 
+#: Keys of a dataset's description, and of its card, for what was left out.
+LEFT_OUT = ("removed_from_train", GAPS)
+
 
 def audit(
     table: str | Path,
@@ -29,7 +32,7 @@ def audit(
     position_unit: str,
     data_card: str | Path,
     readable: str | Path,
-    removed: Mapping[str, int] | None = None,
+    without: Mapping[str, Any] | None = None,
     base: Mapping[str, Any] | None = None,
 ) -> None:
     """Run every check on a tidy table, and write the data card and its readable page.
@@ -41,7 +44,7 @@ def audit(
         position_unit: unit of positions in the dataset's own file, for the card.
         data_card: path of the card to write (JSON).
         readable: path of the page to write (Markdown).
-        removed: of `removed_rows`; None where nothing was asked for.
+        without: keys of the card for what was left out, of `left_out`; None where nothing was asked for.
         base: what the dataset's entry declares of the robot's base.
 
     Raises:
@@ -59,7 +62,7 @@ def audit(
         "unit": "mm",
         "unit_in_file": position_unit,
         "subsets": {subset: _description(rows) for subset, rows in samples.items()},
-        **_removed(removed),
+        **(without or {"removed_from_train": None}),
         "base": _base(samples[TRAIN], base or {}),
         "checks": {name: dict(result.numbers) for name, result in results.items()},
     }
@@ -71,20 +74,11 @@ def audit(
         logger.info("no findings in %d rows", sum(map(len, samples.values())))
 
 
-def removed_rows(description: Mapping[str, Any]) -> dict[str, int] | None:
-    """Rows that a dataset's description says were left out, by kind: those that cleaning dropped from `train`, and
-    those of the file in which a number is missing; None where neither was asked for.
+def left_out(description: Mapping[str, Any]) -> dict[str, Any]:
+    """The keys of a card for what a dataset's description says was left out: rows that cleaning dropped from `train`,
+    by kind (None where it was not asked for), and what of the file was not read, where the entry asked for that.
     """
-    cleaned: Mapping[str, int] | None = description["removed_from_train"]
-    gaps = {GAPS: description[GAPS]} if GAPS in description else None
-    return None if cleaned is None and gaps is None else {**(cleaned or {}), **(gaps or {})}
-
-
-def _removed(removed: Mapping[str, int] | None) -> dict[str, Any]:
-    """The keys of the card for rows that were left out."""
-    cleaned = {kind: count for kind, count in (removed or {}).items() if kind != GAPS}
-    by_cleaning = None if removed is None or (GAPS in removed and not cleaned) else cleaned
-    return {"removed_from_train": by_cleaning} | ({GAPS: removed[GAPS]} if removed and GAPS in removed else {})
+    return {key: description[key] for key in LEFT_OUT if key in description}
 
 
 def _description(rows: Samples) -> dict[str, Any]:

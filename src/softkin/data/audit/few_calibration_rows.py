@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from fractions import Fraction
 
-from softkin.core.samples import VALIDATION, Samples
+from softkin.core.samples import ROWS_FOR_95_PERCENT, VALIDATION, Samples
 from softkin.data.audit.findings import WARNING, CheckResult, Finding, counted
 
 #: Confidence levels that people ask for.
 USUAL_LEVELS = (0.8, 0.9, 0.95, 0.99)
-#: From as many rows on, intervals at 95 % are finite: 0.95 (n + 1) <= n.
-ENOUGH_ROWS = 19
 
 
 def check(samples: Mapping[str, Samples]) -> CheckResult:
@@ -21,7 +19,7 @@ def check(samples: Mapping[str, Samples]) -> CheckResult:
     """
     n_rows = len(samples[VALIDATION])
     numbers = {"calibration_rows": n_rows, "highest_level": n_rows / (n_rows + 1)}
-    if n_rows >= ENOUGH_ROWS:
+    if n_rows >= ROWS_FOR_95_PERCENT:
         return CheckResult((), numbers)
     lost = [level for level in USUAL_LEVELS if Fraction(str(level)) * (n_rows + 1) > n_rows]
     finding = Finding(
@@ -31,7 +29,7 @@ def check(samples: Mapping[str, Samples]) -> CheckResult:
         f"Validation has {counted(n_rows, 'row')}, so {_listed(lost)} cannot be had: no finite interval is calibrated "
         f"above {100 * numbers['highest_level']:.1f} %.",
         "Calibrated intervals at such levels are infinite and say nothing, methods cannot be told apart by them, and "
-        f"coverage on so few rows is chance. From {ENOUGH_ROWS} rows on 95 % can be had.",
+        f"coverage on so few rows is chance. From {ROWS_FOR_95_PERCENT} rows on 95 % can be had.",
     )
     return CheckResult((finding,), numbers)
 

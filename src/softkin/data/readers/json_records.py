@@ -9,6 +9,7 @@ from typing import Any
 
 from softkin.core.errors import DataError
 from softkin.data.readers.memory_table import Table, from_cells
+from softkin.data.readers.published_json import SUBSET_KEYS
 
 
 def open_table(path: Path, _source: Mapping[str, Any]) -> Table:
@@ -25,7 +26,7 @@ def open_table(path: Path, _source: Mapping[str, Any]) -> Table:
             content = [json.loads(line) for line in text.splitlines() if line.strip()]
     except (ValueError, RecursionError) as error:
         raise DataError(f"not readable as JSON: {error}", fix="write the file anew") from error
-    if isinstance(content, dict) and {"train", "val", "test", "ext"} <= set(content):
+    if isinstance(content, dict) and set(SUBSET_KEYS.values()) <= set(content):
         raise DataError(
             "the layout of the published files, kinn_json",
             fix="write that as `format` of the entry, with `n_commands` and `n_markers`",

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from softkin.core.errors import DataError
 from softkin.core.samples import Array
 from softkin.data.readers.bad_rows import FIX_MISSING, listed
-from softkin.data.readers.memory_table import Table
+from softkin.data.readers.memory_table import Table, row_from_0
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +57,7 @@ class ParquetColumns:
 
     def place(self, row: int) -> str:
         """Where row `row` stands in the file."""
-        return f"row {row} (the first is 0)"
+        return row_from_0(row)
 
     def _numbers(self, table: Any, name: str, gaps: bool) -> Array:
         import pyarrow as pa

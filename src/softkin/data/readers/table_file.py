@@ -14,7 +14,7 @@ import numpy as np
 
 from softkin.core.errors import DataError
 from softkin.core.recording import Recording
-from softkin.core.samples import EXTRAPOLATION, MAX_MAGNITUDE, SUBSETS, VALIDATION, Array, Samples
+from softkin.core.samples import EXTRAPOLATION, MAX_MAGNITUDE, ROWS_FOR_95_PERCENT, SUBSETS, VALIDATION, Array, Samples
 from softkin.data import split
 from softkin.data.readers import columns
 from softkin.data.readers.complete_rows import GAPS, CompleteRows
@@ -29,8 +29,6 @@ WHEN = ("order", "session")
 COLUMNS = ("commands", "positions")
 #: What is done with rows in which a number is missing, where they are not refused.
 DROP_ROWS = "drop_rows"
-#: Split conformal prediction at 95 % needs 19 calibration rows.
-FEW_CALIBRATION_ROWS = 19
 #: A marker's range this many times that of the next narrower suggests that they are in different units: along an arm
 #: ranges grow gradually.
 SUSPICIOUS_GAP = 100.0
@@ -129,10 +127,10 @@ def _check_magnitudes(names: Sequence[str], values: Array, place: Callable[[int]
 def _remarks_on_sizes(sizes: Mapping[str, int], wanted: Mapping[str, float]) -> Iterator[tuple[str, str]]:
     """What is suspicious about the sizes of the subsets, and its fix."""
     n_rows = sum(sizes.values())
-    if sizes[VALIDATION] < FEW_CALIBRATION_ROWS:
+    if sizes[VALIDATION] < ROWS_FOR_95_PERCENT:
         yield (
             f"validation has {sizes[VALIDATION]} rows, too few for a calibrated interval at 95 %",
-            f"record more rows, so that it has {FEW_CALIBRATION_ROWS} or more",
+            f"record more rows, so that it has {ROWS_FOR_95_PERCENT} or more",
         )
     off = {subset: share for subset, share in wanted.items() if abs(sizes[subset] / n_rows - share) > 0.05}
     if off:

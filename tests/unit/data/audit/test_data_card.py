@@ -11,7 +11,7 @@ from softkin.core.escaping import markdown_text
 from softkin.core.files import read_json
 from softkin.core.samples import SUBSETS, Samples
 from softkin.data.audit import CHECKS
-from softkin.data.audit.data_card import _removed, audit, removed_rows
+from softkin.data.audit.data_card import audit, left_out
 from softkin.data.table import to_table, write_table
 from tests.conftest import bending_arm
 from tests.unit.data.audit.clean_robot import clean_robot
@@ -42,7 +42,7 @@ def test_a_clean_robot_has_a_card_without_findings(robot: dict[str, Samples], tm
 def test_findings_stand_in_card_and_page(robot: dict[str, Samples], changed: Replace, tmp_path: Path) -> None:
     samples = changed("test", slice(0, 20), commands=robot["train"].commands[:20])
     samples = changed("train", [300], positions=robot["train"].positions[5], of=samples)
-    card, readable = audited(samples, tmp_path, removed={"stuck_rows": 3, "duplicate_rows": 0})
+    card, readable = audited(samples, tmp_path, without={"removed_from_train": {"stuck_rows": 3, "duplicate_rows": 0}})
     assert (card["worst_severity"], card["is_leaking"]) == ("leak", True)
     assert {"copied_commands", "stuck_poses"} <= {finding["code"] for finding in card["findings"]}
     for finding in card["findings"]:
@@ -101,20 +101,18 @@ def test_the_card_says_where_the_base_stands_and_who_says_so(tmp_path: Path) -> 
 
 
 @pytest.mark.parametrize(
-    ("description", "removed", "cleaned"),
+    "keys",
     [
-        ({"removed_from_train": None}, None, None),
-        ({"removed_from_train": {"stuck_rows": 2}}, {"stuck_rows": 2}, {"stuck_rows": 2}),
-        ({"removed_from_train": None, "rows_with_gaps": 3}, {"rows_with_gaps": 3}, None),
-        (
-            {"removed_from_train": {"stuck_rows": 2}, "rows_with_gaps": 3},
-            {"stuck_rows": 2, "rows_with_gaps": 3},
-            {"stuck_rows": 2},
-        ),
+        {"removed_from_train": None},
+        {"removed_from_train": {"stuck_rows": 2}},
+        {"removed_from_train": None, "rows_with_gaps": 3},
+        {"removed_from_train": {"stuck_rows": 2}, "rows_with_gaps": 3},
     ],
 )
-def test_rows_that_were_left_out_are_counted_by_kind(description: Any, removed: Any, cleaned: Any) -> None:
-    assert removed_rows(description) == removed
-    keys = _removed(removed)
-    assert keys["removed_from_train"] == cleaned
-    assert keys.get("rows_with_gaps") == description.get("rows_with_gaps")
+def test_what_was_left_out_of_a_dataset_is_a_part_of_its_card(
+    robot: dict[str, Samples], keys: dict[str, Any], tmp_path: Path
+) -> None:
+    description = {"dataset": "arm", "rows": {}} | keys
+    assert left_out(description) == keys
+    card, _ = audited(robot, tmp_path, without=left_out(description))
+    assert {key: card[key] for key in card if key in keys or key == "rows_with_gaps"} == keys

@@ -2,8 +2,8 @@ from __future__ import annotations
 
 import pytest
 
-from softkin.core.samples import Samples
-from softkin.data.audit.few_calibration_rows import ENOUGH_ROWS, USUAL_LEVELS, check
+from softkin.core.samples import ROWS_FOR_95_PERCENT, Samples
+from softkin.data.audit.few_calibration_rows import USUAL_LEVELS, check
 from softkin.uncertainty.conformal import conformal_rank
 
 
@@ -13,7 +13,7 @@ def test_the_levels_that_are_named_are_those_without_a_finite_interval(robot: di
     few = Samples(validation.commands[:n_rows], validation.positions[:n_rows])
     result = check(robot | {"validation": few})
     lost = [level for level in USUAL_LEVELS if conformal_rank(len(few), level) is None]
-    if len(few) >= ENOUGH_ROWS:
+    if len(few) >= ROWS_FOR_95_PERCENT:
         assert not result.findings
         assert set(lost) <= {0.99}
         return
