@@ -37,10 +37,11 @@ LOOKED_AT = 100_000
 
 @dataclass(frozen=True, slots=True)
 class DelimitedText:
-    """A text file, and how it is written."""
+    """A text file, and how it is written; `content` is its text where that is made and not in the file."""
 
     path: Path
     layout: TextLayout
+    content: bytes | None = None
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -140,12 +141,14 @@ class DelimitedText:
         import pyarrow as pa
 
         if not self._has_blanks():
-            return self.path
+            return self.path if self.content is None else pa.BufferReader(self.content)
         with self._open() as lines:
             text = "\n".join(" ".join(line.split()) for line in lines)
         return pa.BufferReader(text.encode())
 
     def _open(self) -> io.TextIOWrapper:
+        if self.content is not None:
+            return io.TextIOWrapper(io.BytesIO(self.content), encoding=self.layout.encoding, newline="")
         return open(self.path, encoding=self.layout.encoding, newline="")
 
     def _rows(self, lines: Iterator[str]) -> Iterator[tuple[int, list[str]]]:
@@ -171,29 +174,39 @@ class DelimitedText:
         return DELIMITERS.get(self.layout.delimiter, repr(self.layout.delimiter))
 
 
-def open_text(path: Path, delimiter: str | None = None, header: str | int | None = None) -> DelimitedText:
-    """Detect how the text file `path` is written, from its beginning; `delimiter` and `header` override detection.
+def open_text(
+    path: Path, delimiter: str | None = None, header: str | int | None = None, content: bytes | None = None
+) -> DelimitedText:
+    """Detect how the text file `path` is written, from its beginning; `delimiter` and `header` override detection, and
+    `content` is read in its place.
 
     Raises:
         DataError: empty, no text, no header, or one column only.
     """
-    with open(path, "rb") as file:
+    with open(path, "rb") if content is None else io.BytesIO(content) as file:
         start = file.read(SAMPLE_BYTES)
         is_whole = not file.read(1)
     layout = layout_of(start, is_whole, delimiter, header)
     if layout.lines_above:
         logger.info("%d lines above the rows are not read", layout.lines_above)
-    return DelimitedText(path, layout)
+    return DelimitedText(path, layout, content)
 
 
 def open_table(path: Path, source: Mapping[str, Any]) -> Table:
-    """The table in the text file `path`, by the keys `delimiter` and `header` of its entry; where cells hold lists, a
-    column for each of their numbers.
+    """The table in the text file `path`, by the keys `delimiter` and `header` of its entry.
 
     Raises:
-        DataError: as `open_text`; or lists of one column have different lengths.
+        DataError: as `open_text` and `with_lists`.
     """
-    text = open_text(path, source.get("delimiter"), source.get("header"))
+    return with_lists(open_text(path, source.get("delimiter"), source.get("header")))
+
+
+def with_lists(text: DelimitedText) -> Table:
+    """The table of a text; where cells hold lists, with a column for each of their numbers.
+
+    Raises:
+        DataError: lists of one column have different lengths.
+    """
     rows = text.rows(1)
     if not any(list_in(cell) for _, row in rows for cell in row):
         return text

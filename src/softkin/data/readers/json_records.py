@@ -23,7 +23,7 @@ def open_table(path: Path, _source: Mapping[str, Any]) -> Table:
         try:
             content = json.loads(text)
         except json.JSONDecodeError:
-            content = [json.loads(line) for line in text.splitlines() if line.strip()]
+            content = [_record(line, number) for number, line in enumerate(text.splitlines(), 1) if line.strip()]
     except (ValueError, RecursionError) as error:
         raise DataError(f"not readable as JSON: {error}", fix="write the file anew") from error
     if isinstance(content, dict) and set(SUBSET_KEYS.values()) <= set(content):
@@ -42,3 +42,10 @@ def open_table(path: Path, _source: Mapping[str, Any]) -> Table:
         lengths = ", ".join(f"{name} {len(column)}" for name, column in columns.items())
         raise DataError(f"columns of different length: {lengths}", fix="write one value per row in each column")
     return from_cells(list(columns), list(columns.values()))
+
+
+def _record(line: str, number: int) -> Any:
+    try:
+        return json.loads(line)
+    except json.JSONDecodeError as error:
+        raise ValueError(f"line {number}: {error.msg}") from error

@@ -1,9 +1,10 @@
-"""A table of named arrays: those with one entry per row, each other axis spread over columns."""
+"""A table of named arrays: those with one entry per row, each other axis spread over columns; trials are sessions."""
 
 from __future__ import annotations
 
+import logging
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,36 @@ from numpy.typing import NDArray
 
 from softkin.core.errors import DataError
 from softkin.data.readers.memory_table import MemoryTable
+
+logger = logging.getLogger("softkin")
+
+#: The column that numbers the trials of a file.
+SESSION = "session"
+
+
+def table_of_variables(variables: Mapping[str, Any]) -> MemoryTable:
+    """The table of the variables of a file: arrays, a struct (dictionary) of them, or trials: an array of structs, or
+    several structs of the same fields. Trials stand one below the other, and a column `session` numbers them from 1.
+
+    Raises:
+        DataError: trials have different fields, or no array has rows.
+    """
+    arrays: dict[str, NDArray[Any]] = {}
+    structs = {name: value for name, value in variables.items() if isinstance(value, dict)}
+    are_trials = len(structs) > 1 and len({tuple(sorted(struct)) for struct in structs.values()}) == 1
+    if are_trials:
+        logger.info("trials, in this order: %s", ", ".join(structs))
+        arrays |= _joined(list(structs.values()), " ".join(structs))
+    for name, value in variables.items():
+        trials = _trials(value)
+        if trials:
+            arrays |= _joined(trials, name)
+        elif isinstance(value, dict) and not are_trials:
+            fields = _fields(value)
+            arrays |= {f"{name}_{field}" if field in arrays else field: array for field, array in fields.items()}
+        elif not isinstance(value, dict):
+            arrays[name] = np.asarray(value, dtype=object) if isinstance(value, list) else np.asarray(value)
+    return table_of_arrays(arrays)
 
 
 def table_of_arrays(arrays: Mapping[str, NDArray[Any]]) -> MemoryTable:
@@ -27,6 +58,9 @@ def table_of_arrays(arrays: Mapping[str, NDArray[Any]]) -> MemoryTable:
         shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays.items()) or "none"
         raise DataError(f"no array has a row per pose: {shapes}", fix="store arrays with one row per pose")
     n_rows = lengths.most_common(1)[0][0]
+    left = [f"{name} {array.shape}" for name, array in arrays.items() if name not in usable or len(array) != n_rows]
+    if left:
+        logger.info("arrays of %d rows are read; left out: %s", n_rows, ", ".join(left))
     names: list[str] = []
     columns: list[NDArray[Any]] = []
     for name, array in usable.items():
@@ -48,3 +82,30 @@ def _names(name: str, shape: tuple[int, ...]) -> list[str]:
         markers = [""] if len(sizes) == 1 else [str(place + 1) for place in range(sizes[0])]
         return [f"{name}{marker}_{axis}" for marker in markers for axis in "xyz"]
     return [f"{name}_{place + 1}" for place in range(int(np.prod(sizes)))]
+
+
+def _fields(struct: Mapping[str, Any]) -> dict[str, NDArray[Any]]:
+    return {field: np.asarray(value) for field, value in struct.items() if not isinstance(value, dict)}
+
+
+def _trials(value: Any) -> list[dict[str, Any]]:
+    """The structs of an array of structs, one per trial; none of anything else."""
+    cells = list(value) if isinstance(value, list | np.ndarray) and np.ndim(value) == 1 else []
+    return cells if cells and all(isinstance(cell, dict) for cell in cells) else []
+
+
+def _joined(trials: Sequence[Mapping[str, Any]], name: str) -> dict[str, NDArray[Any]]:
+    """Fields of all trials, one below the other, and the session of each row."""
+    parts = [_fields(trial) for trial in trials]
+    if len({tuple(sorted(part)) for part in parts}) > 1:
+        raise DataError("trials have different fields", where=f"variable '{name}'", fix="give all trials the same")
+    rows = [max((len(array) for array in part.values() if array.ndim), default=0) for part in parts]
+    whole = [
+        field
+        for field in parts[0]
+        if all(p[field].ndim and len(p[field]) == n for p, n in zip(parts, rows, strict=True))
+    ]
+    if set(parts[0]) - set(whole):
+        logger.info("of each trial left out, since it has no row per pose: %s", ", ".join(set(parts[0]) - set(whole)))
+    joined = {field: np.concatenate([part[field] for part in parts]) for field in whole}
+    return {SESSION: np.repeat(np.arange(1, len(parts) + 1), rows)} | joined

@@ -9,7 +9,20 @@ from pathlib import Path
 from typing import Any
 
 from softkin.core.errors import DataError
-from softkin.data.readers import delimited_text, json_records, matlab_file, motive_export, numpy_file, parquet_columns
+from softkin.data.readers import (
+    c3d_file,
+    delimited_text,
+    excel_workbook,
+    feather_file,
+    hdf5_file,
+    json_records,
+    matlab_file,
+    motive_export,
+    ndi_export,
+    numpy_file,
+    parquet_columns,
+    vicon_export,
+)
 from softkin.data.readers.memory_table import Table
 
 
@@ -39,23 +52,31 @@ def _is_json(start: bytes) -> bool:
 #: The first that a file is of counts; text is what is nothing else.
 TABLE_FORMATS: dict[str, TableFormat] = {
     "parquet": TableFormat(begins_with(b"PAR1"), parquet_columns.open_table),
+    "feather": TableFormat(begins_with(*feather_file.FIRST_BYTES), feather_file.open_table),
     "numpy": TableFormat(_is_of_numpy, numpy_file.open_table),
+    "excel": TableFormat(excel_workbook.is_workbook, excel_workbook.open_table),
+    "hdf5": TableFormat(begins_with(*hdf5_file.FIRST_BYTES), hdf5_file.open_table),
     "matlab": TableFormat(begins_with(b"MATLAB"), matlab_file.open_table),
     "json": TableFormat(_is_json, json_records.open_table),
+    "c3d": TableFormat(c3d_file.is_c3d, c3d_file.open_table),
+    "vicon": TableFormat(vicon_export.is_export, vicon_export.open_table),
+    "ndi": TableFormat(begins_with(*ndi_export.FIRST_WORDS), ndi_export.open_table),
     "motive": TableFormat(begins_with(*motive_export.FIRST_WORDS), motive_export.open_table),
     "text": TableFormat(lambda _: True, delimited_text.open_table),
 }
-#: First bytes of files that people take for tables -> what they are, and how to get a table.
-NO_TABLES = {
-    b"PK\x03\x04": ("an Excel workbook or a zip file", "open it and save the sheet as 'CSV UTF-8'"),
-    b"\xd0\xcf\x11\xe0": ("an old Excel workbook", "open it and save the sheet as 'CSV UTF-8'"),
-    b"\x1f\x8b": ("compressed by gzip", "unpack it"),
-    b"\x89HDF": ("an HDF5 file", "export the table as CSV or Parquet"),
-    b"\x80": (
+#: How a pickle begins: of protocol 2 and later, of 0 and 1.
+_PICKLE = re.compile(rb"\x80[\x02-\x05]|\(?(c[\w.]+\n\w+\n|[dl]p\d+\n|[\]})]q\x00)|[\]})]q\x00")
+#: Of files that people take for tables: how they begin, what they are, and how to get a table; {name} is the file's.
+NO_TABLES: tuple[tuple[re.Pattern[bytes], str, str], ...] = (
+    (re.compile(rb"PK\x03\x04"), "a zip file", "unpack it"),
+    (re.compile(rb"\x1f\x8b"), "compressed by gzip", "unpack it"),
+    (
+        _PICKLE,
         "a pickle, which may run any program when it is opened",
-        "convert it where you trust it: import pandas; pandas.read_pickle('robot.pkl').to_parquet('robot.parquet')",
+        "convert it where you trust it, by two lines of Python:\n    import pandas\n"
+        "    pandas.DataFrame(pandas.read_pickle('{name}')).to_parquet('{stem}.parquet')",
     ),
-}
+)
 FIRST_BYTES = 4096
 
 
@@ -68,7 +89,8 @@ def open_table(path: str | Path, source: Mapping[str, Any]) -> Table:
     with open(path, "rb") as file:
         start = file.read(FIRST_BYTES)
     name, kind = next((name, kind) for name, kind in TABLE_FORMATS.items() if kind.is_of(start))
-    for magic, (what, fix) in NO_TABLES.items():
-        if name == "text" and start.startswith(magic):
-            raise DataError(f"no table, but {what}", fix=fix)
+    for begins, what, fix in NO_TABLES:
+        if name == "text" and begins.match(start):
+            named = Path(source.get("file", path))
+            raise DataError(f"no table, but {what}", fix=fix.format(name=named.name, stem=named.stem))
     return kind.open_table(Path(path), source)

@@ -6,7 +6,6 @@ is read off the first 256 kB.
 
 from __future__ import annotations
 
-import codecs
 import csv
 import io
 import re
@@ -16,6 +15,7 @@ from dataclasses import dataclass
 
 from softkin.core.errors import DataError
 from softkin.data.readers.bad_rows import NUMBER
+from softkin.data.readers.text_encoding import decoded
 
 BLANKS = " "
 DELIMITERS = {",": "comma", ";": "semicolon", "\t": "tab", "|": "bar", BLANKS: "blanks"}
@@ -23,7 +23,8 @@ SAMPLE_BYTES = 1 << 18
 SAMPLE_ROWS = 200
 #: Of the rows below a header that is not on the first line, this share has as many cells as it.
 SAME_SHAPE = 0.9
-_ENCODINGS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
+#: A header stands below at most so many rows of other things.
+MOST_ABOVE = 30
 _COMMENTS = ("#", "%")
 #: What a cell of a row of units holds, perhaps in brackets.
 _UNIT = re.compile(
@@ -89,34 +90,6 @@ def layout_of(
     if is_whole and len(list(rows_of(iter(lines[layout.lines_above :]), delimiter))) <= layout.header_rows:
         raise DataError("a header, but no row of numbers", fix="export the file again")
     return layout
-
-
-def decoded(start: bytes, is_whole: bool) -> tuple[str, str]:
-    """The text of the first bytes of a file, and its encoding.
-
-    Raises:
-        DataError: no text, or none at all.
-    """
-    encoding = next((name for mark, name in _ENCODINGS.items() if start.startswith(mark)), "utf-8")
-    try:
-        text = codecs.getincrementaldecoder(encoding)().decode(start, final=is_whole)
-    except UnicodeDecodeError as error:
-        line = start[: error.start].count(b"\n") + 1
-        raise DataError(
-            f"not {encoding}: {error.reason} (byte {start[error.start]:#04x})",
-            where=f"line {line}",
-            fix="save the file as 'CSV UTF-8', or write its header in plain letters",
-        ) from error
-    if "\0" in text:
-        line = text[: text.index("\0")].count("\n") + 1
-        raise DataError(
-            "zero bytes: the file is UTF-16 without its mark, or no text",
-            where=f"line {line}",
-            fix="save the file as 'CSV UTF-8'",
-        )
-    if not text.strip():
-        raise DataError("the file is empty", fix="export it again, with a header and rows of numbers")
-    return text, encoding
 
 
 def rows_of(lines: Iterator[str], delimiter: str) -> Iterator[tuple[int, list[str]]]:
@@ -190,7 +163,7 @@ def _detected(
 ) -> TextLayout:
     """The layout where nobody says in which line the names are."""
     first, n_cells = _shape(rows)
-    first = first if len(rows[0][1]) != n_cells and _is_header(rows, first) else 0
+    first = first if len(rows[0][1]) != n_cells and _is_header(rows, first) else _below_padded(rows)
     layout = TextLayout(encoding, delimiter, above, ())
     cells = [cell.strip() for cell in rows[first][1]]
     if not all(is_number(cell) or not cell for cell in cells):
@@ -204,6 +177,16 @@ def _detected(
             "HEADER=none), which calls them c1, c2, ...",
         )
     return TextLayout(encoding, delimiter, above, names, 0)
+
+
+def _below_padded(rows: Sequence[tuple[int, list[str]]]) -> int:
+    """The row of the header where rows above it are filled up with empty cells, as Excel does it; 0 otherwise."""
+    if all(cell.strip() for cell in rows[0][1][1:]):
+        return 0
+    for row in range(1, min(len(rows), MOST_ABOVE)):
+        if _is_header(rows, row) and not all(_UNIT.fullmatch(cell.strip()) for cell in rows[row][1]):
+            return row
+    return 0
 
 
 def _below(rows: Sequence[tuple[int, list[str]]], first: int, layout: TextLayout) -> TextLayout:

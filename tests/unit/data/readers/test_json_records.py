@@ -31,3 +31,9 @@ def test_anything_else_is_an_error_with_its_fix(tmp_path: Path, text: str) -> No
     with pytest.raises(DataError) as error:
         open_table(tmp_path / "a.json", {})
     assert error.value.fix
+
+
+def test_the_bad_line_of_lines_is_named(tmp_path: Path) -> None:
+    (tmp_path / "a.jsonl").write_text('{"u": 1, "x": 2}\n{"u": 1, "x": }\n')
+    with pytest.raises(DataError, match="line 2: Expecting value"):
+        open_table(tmp_path / "a.jsonl", {})

@@ -20,7 +20,9 @@ def test_trials_become_sessions(tmp_path: Path) -> None:
     assert table.read([0, 1], [])[0].T.tolist() == [[1, 1, 1, 2, 2, 2, 2], [0, 1, 2, 0, 1, 2, 3]]
 
 
-@pytest.mark.parametrize(("content", "says"), [(b"MATLAB 7.3 MAT-file", "v7.3"), (b"MATLAB 5.0", "not readable")])
+@pytest.mark.parametrize(
+    ("content", "says"), [(b"MATLAB 5.0", "not readable"), (b"MATLAB 5.0 MAT-file" + b" " * 200, "not readable")]
+)
 def test_what_cannot_be_read_is_an_error(tmp_path: Path, content: bytes, says: str) -> None:
     (tmp_path / "a.mat").write_bytes(content)
     with pytest.raises(DataError, match=says):

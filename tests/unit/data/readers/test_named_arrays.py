@@ -1,10 +1,12 @@
 from __future__ import annotations
 
+import logging
+
 import numpy as np
 import pytest
 
 from softkin.core.errors import DataError
-from softkin.data.readers.named_arrays import table_of_arrays
+from softkin.data.readers.named_arrays import table_of_arrays, table_of_variables
 
 
 def test_axes_beyond_the_first_are_columns() -> None:
@@ -18,3 +20,20 @@ def test_axes_beyond_the_first_are_columns() -> None:
 def test_arrays_without_rows_are_listed_with_their_shapes() -> None:
     with pytest.raises(DataError, match=r"rate \(\)"):
         table_of_arrays({"rate": np.array(50.0)})
+
+
+def test_what_is_left_out_is_said(caplog: pytest.LogCaptureFixture) -> None:
+    with caplog.at_level(logging.INFO, "softkin"):
+        table_of_arrays({"u": np.ones((4, 2)), "x": np.ones((4, 3)), "gains": np.ones(3)})
+    assert "arrays of 4 rows are read; left out: gains (3,)" in caplog.text
+
+
+def test_several_structs_of_the_same_fields_are_trials_and_others_keep_their_names() -> None:
+    trials = {"down": {"u": np.zeros(2), "x": np.ones(2)}, "up": {"x": np.ones(3), "u": np.ones(3)}}
+    table = table_of_variables(trials)
+    assert table.names == ("session", "u", "x")
+    assert table.read([0, 1], [])[0].T.tolist() == [[1, 1, 2, 2, 2], [0, 0, 1, 1, 1]]
+    table = table_of_variables({"arm": {"t": np.arange(3), "u": np.ones(3)}, "tip": {"t": np.arange(3)}})
+    assert table.names == ("t", "u", "tip_t")
+    with pytest.raises(DataError, match="trials have different fields"):
+        table_of_variables({"runs": [{"u": np.ones(2)}, {"v": np.ones(2)}]})

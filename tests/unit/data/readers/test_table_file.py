@@ -120,7 +120,7 @@ def spoilt(change: Callable[[pd.DataFrame], Any], n_rows: int = 300) -> pd.DataF
     ("table", "changes", "says"),
     [
         (b"", {}, ["the file is empty"]),
-        (b"PK\x03\x04 xl/workbook.xml", {}, ["an Excel workbook", "CSV UTF-8"]),
+        (b"\xd0\xcf\x11\xe0 xl/workbook.xml", {}, ["not readable as a workbook", "CSV UTF-8"]),
         (b"\x1f\x8b\x08 more", {}, ["gzip", "unpack"]),
         ("u1,u2,m1_x,m1_y,m1_z\n", {}, ["a header, but no row"]),
         ("u1,u2,m1_x,m1_y\n", {"dimensions": 2}, ["a header, but no row"]),

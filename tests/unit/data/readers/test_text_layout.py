@@ -66,3 +66,20 @@ def test_a_header_that_is_too_short_is_no_preamble() -> None:
     """A row of numbers is never taken for names, and a header never passed over for rows of text."""
     assert layout("u1,x\n" + ROWS)[0] == ("u1", "x")
     assert layout("u1,x\n1,2,left\n3,4,right\n5,6,left\n")[0] == ("u1", "x")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Recorded in May,,\n,,\nu1,x,y\n1,2,3\n4,5,6\n",
+        "0.1,3,\nu1,x,y\n1,2,3\n4,5,6\n",
+        "Log,,\nu1,x,y\nbar,mm,mm\n1,2,3\n4,5,6\n",
+    ],
+)
+def test_a_preamble_that_is_filled_up_with_empty_cells_is_no_header(text: str) -> None:
+    assert layout_of(text.encode(), True).names == ("u1", "x", "y")
+
+
+@pytest.mark.parametrize("text", ["u1,,y\n1,2,3\n4,5,6\n", "u1,,y\nbar,mm,mm\n1,2,3\n4,5,6\n"])
+def test_a_header_with_an_empty_name_stays_one(text: str) -> None:
+    assert layout_of(text.encode(), True).names == ("u1", "", "y")
