@@ -16,12 +16,15 @@ from sklearn.neighbors import NearestNeighbors
 
 from softkin.core.rows import command_scale, first_of_each, row_groups, sampled_rows
 from softkin.core.samples import TRAIN, Array, Samples
-from softkin.data.audit.findings import LEAK, LEAK_CONSEQUENCES, CheckResult, finding_of_rows
+from softkin.data.audit.copied_commands import MEASURED_ANEW
+from softkin.data.audit.findings import LEAK, LEAK_CONSEQUENCES, WARNING, CheckResult, finding_of_rows
 
 #: A command nearer than this share of the local spacing is a near copy.
 NEAR_SHARE = 0.01
 #: A neighbour that is this many times farther than the one before starts the next bunch; this many are compared.
 GAP, N_NEIGHBOURS = 10.0, 256
+#: A pose repeats one of `train` where no coordinate differs by more than this share of its extent there.
+SAME_POSE = 1e-3
 #: By chance, at most this share of independent rows is so near (with a single command; rarer with more). More rows than
 #: chance brings in one of a million datasets are a leak.
 CHANCE_SHARE, CHANCE_OF_FALSE_ALARM = 0.02, 1e-6
@@ -32,8 +35,9 @@ def check(samples: Mapping[str, Samples], seed: int = 0) -> CheckResult:
     """A finding for each subset with too many near copies; exact copies are left to their own check."""
     train = samples[TRAIN].commands
     scale = command_scale(train)
-    distinct = train[first_of_each(row_groups(train))] / scale
-    distinct = distinct[sampled_rows(len(distinct), MAX_TRAIN_COMMANDS, seed)]
+    first = first_of_each(row_groups(train))
+    first = first[sampled_rows(len(first), MAX_TRAIN_COMMANDS, seed)]
+    distinct, extent = train[first] / scale, np.ptp(samples[TRAIN].positions, axis=0)
     numbers: dict[str, Any] = {"train_commands_looked_at": len(distinct), "unit": "standard deviations on train"}
     if len(distinct) < 3:
         return CheckResult((), numbers | {"not_measured": "train has fewer than 3 distinct commands"})
@@ -48,23 +52,28 @@ def check(samples: Mapping[str, Samples], seed: int = 0) -> CheckResult:
         spacing = _spacing(tree, distinct[nearest[:, 0]])
         near = (distances > 0) & (distances < NEAR_SHARE * spacing)
         count, total = int(near.sum()), len(checked)
+        moved = np.abs(samples[subset].positions[checked] - samples[TRAIN].positions[first[nearest[:, 0]]])
+        repeats = near & (moved <= SAME_POSE * extent).all(axis=1)
         numbers[subset] = {
             "rows_looked_at": total,
             "near_copies": count,
+            "poses_repeated": int(repeats.sum()),
             "nearest_distance_min": float(distances.min()),
             "nearest_distance_median": float(np.median(distances)),
         }
         if count > binom.isf(CHANCE_OF_FALSE_ALARM, total, CHANCE_SHARE):
             marked = np.zeros(len(samples[subset]), dtype=bool)
             marked[checked[near]] = True
+            is_leak = repeats.sum() > binom.isf(CHANCE_OF_FALSE_ALARM, total, CHANCE_SHARE)
             findings.append(
                 finding_of_rows(
                     "near_copied_commands",
-                    LEAK,
+                    LEAK if is_leak else WARNING,
                     {subset: marked},
                     f"Of {total} rows of {subset} that were looked at, {count} ({count / total:.1%}) lie nearer to "
-                    "a train command than a hundredth of the spacing of train commands there.",
-                    f"{consequence} The commands differ by next to nothing, as if one command had been repeated with "
+                    "a train command than a hundredth of the spacing of train commands there"
+                    + (", with its pose." if is_leak else ", measured anew."),
+                    f"{consequence if is_leak else MEASURED_ANEW} The commands differ by next to nothing, as if one command had been repeated with "
                     "jitter and its repetitions spread over the subsets.",
                 )
             )

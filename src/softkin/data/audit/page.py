@@ -14,7 +14,7 @@ OTHERS = [subset for subset in SUBSETS if subset != TRAIN]
 MAX_ROWS_SHOWN, MAX_COLUMNS_SHOWN = 10, 12
 
 VERDICTS = {
-    "leak": "**Leak.** Scores on this dataset are, at least partly, training error. Its testing tables are marked.",
+    "leak": "**Leak.** Scores on subsets that a leak names are training error; their tables are marked.",
     "warning": "**With care.** Read the findings before you trust a score.",
     "note": "**Sound.** There are notes, none of which touches the scores.",
     None: "**Sound.** There are no findings.",

@@ -40,7 +40,8 @@ def test_a_clean_robot_has_a_card_without_findings(robot: dict[str, Samples], tm
 
 
 def test_findings_stand_in_card_and_page(robot: dict[str, Samples], changed: Replace, tmp_path: Path) -> None:
-    samples = changed("test", slice(0, 20), commands=robot["train"].commands[:20])
+    first = robot["train"].take(slice(20))
+    samples = changed("test", slice(0, 20), commands=first.commands, positions=first.positions)
     samples = changed("train", [300], positions=robot["train"].positions[5], of=samples)
     card, readable = audited(samples, tmp_path, without={"removed_from_train": {"stuck_rows": 3, "duplicate_rows": 0}})
     assert (card["worst_severity"], card["is_leaking"]) == ("leak", True)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from softkin.core.samples import Samples
-from softkin.data.audit.findings import LEAK
+from softkin.data.audit.findings import LEAK, WARNING
 from softkin.data.audit.near_copies import check
 from tests.unit.data.audit.conftest import Replace
 
@@ -21,11 +21,14 @@ def jittered_bunches(jitter: float, n_bunches: int = 30, each: int = 40) -> dict
 
 def test_copies_with_jitter_are_a_leak(robot: dict[str, Samples], changed: Replace) -> None:
     jitter = 1e-6 * np.random.default_rng(0).standard_normal((25, 2))
-    result = check(changed("test", slice(0, 25), commands=robot["train"].commands[:25] + jitter))
+    first = robot["train"].take(slice(25))
+    result = check(changed("test", slice(0, 25), commands=first.commands + jitter, positions=first.positions))
     (finding,) = result.findings
     assert (finding.code, finding.severity) == ("near_copied_commands", LEAK)
     assert finding.rows["test"] == tuple(range(25))
     assert result.numbers["test"]["near_copies"] == 25
+    anew = check(changed("test", slice(0, 25), commands=first.commands + jitter, positions=first.positions + 3.0))
+    assert [(finding.code, finding.severity) for finding in anew.findings] == [("near_copied_commands", WARNING)]
 
 
 def test_bunches_in_train_itself_do_not_hide_them() -> None:
