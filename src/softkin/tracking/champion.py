@@ -26,7 +26,7 @@ from mlflow.utils.mlflow_tags import MLFLOW_MODEL_VERSIONS
 
 import softkin
 from softkin.core.distributions import installed
-from softkin.core.files import sha256_of
+from softkin.core.files import file_sha256, sha256_of
 from softkin.core.job_records import load_model
 from softkin.core.runs import nearest_level
 from softkin.core.samples import command_columns, coordinate_columns
@@ -191,6 +191,7 @@ def _log_model(
             f"{folder}/model",
             python_model=served_model.__file__,
             artifacts={"calibrated_model": str(file.resolve())},
+            model_config={"sha256": file_sha256(file)},
             code_paths=[str(Path(softkin.__file__).parent)],
             signature=_signature(model, level),
             input_example=pd.DataFrame(model.train.commands[:EXAMPLES], columns=commands),

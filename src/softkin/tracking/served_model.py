@@ -5,6 +5,9 @@ MLflow copies this file into the registered model, with the package beside it.
 
 from __future__ import annotations
 
+import hashlib
+import io
+from pathlib import Path
 from typing import Any
 
 import joblib
@@ -13,6 +16,7 @@ import pandas as pd
 from mlflow.models import set_model
 from mlflow.pyfunc.model import PythonModel
 
+from softkin.core.errors import ResultError
 from softkin.core.samples import coordinate_columns
 
 
@@ -23,8 +27,20 @@ class ServedModel(PythonModel):
     """
 
     def load_context(self, context: Any) -> None:
-        """Read the calibrated model."""
-        self.model = joblib.load(context.artifacts["calibrated_model"])
+        """Read the calibrated model: unpickling runs what is in the file, so it must be the one that was registered.
+
+        Raises:
+            ResultError: it is another, by the hash that was registered with it.
+        """
+        file = Path(context.artifacts["calibrated_model"])
+        content = file.read_bytes()
+        if hashlib.sha256(content).hexdigest() != context.model_config["sha256"]:
+            raise ResultError(
+                "changed since it was registered; it is not loaded, since loading runs what is in it",
+                where=file,
+                fix="delete this version in MLflow and register the model again from results/: make store",
+            )
+        self.model = joblib.load(io.BytesIO(content))
 
     def predict(self, context: Any, model_input: pd.DataFrame, params: dict[str, Any] | None = None) -> pd.DataFrame:  # noqa: ARG002
         """Positions and intervals in mm, a row per command."""

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import glob
 import logging
 import os
 import sqlite3
 import time
 from collections.abc import Mapping
+from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -21,11 +23,14 @@ import mlflow
 from filelock import FileLock
 from mlflow import MlflowClient
 from mlflow.exceptions import MlflowException
+from mlflow.store.db.utils import _initialize_tables
+from sqlalchemy import create_engine
+from sqlalchemy.pool import NullPool
 
 from softkin.core.addresses import SQLITE
 from softkin.core.errors import StoreError
 from softkin.core.escaping import markdown_text
-from softkin.core.files import read_json
+from softkin.core.files import read_json, replacing
 from softkin.core.urls import without_credentials
 from softkin.data.audit.findings import LEAK
 from softkin.tracking.artifacts import artifacts_beside, move_locations
@@ -89,14 +94,27 @@ def create_store(tracking_uri: str) -> None:
         with FileLock(f"{file}.lock"):
             if file.exists() and (file.is_dir() or file.stat().st_size):  # an empty one becomes a store
                 check_file(file)
+            else:
+                _make(file)
             MlflowClient(tracking_uri).search_experiments(max_results=1)
-            connection = sqlite3.connect(file)
-            connection.execute("PRAGMA journal_mode=WAL")
-            connection.close()
     else:
         check_answers(tracking_uri)
         MlflowClient(tracking_uri).search_experiments(max_results=1)
     logger.info("the MLflow store is %s", without_credentials(tracking_uri))
+
+
+def _make(file: Path) -> None:
+    """Make a store that has its name when it is whole: MLflow refuses one with half of its tables, which is what a
+    process that is killed while MLflow makes them leaves.
+    """
+    for left in file.parent.glob(f".{glob.escape(file.name)}.*.part*"):
+        left.unlink()
+    with replacing(file) as temporary:
+        engine = create_engine(f"{SQLITE}{temporary}", poolclass=NullPool)
+        _initialize_tables(engine)  # type: ignore[no-untyped-call]
+        engine.dispose()
+        with closing(sqlite3.connect(temporary)) as connection:
+            connection.execute("PRAGMA journal_mode=WAL")
 
 
 def client_of(tracking_uri: str) -> MlflowClient:

@@ -23,6 +23,11 @@ FAULTS = [
         "it is made once",
         f"{STORE}::test_four_processes_may_create_the_store_at_once",
     ),
+    Fault(
+        "making it is killed half-way",
+        "the next run makes it",
+        f"{STORE}::test_a_store_whose_making_was_killed_is_made_anew",
+    ),
     Fault("an experiment was deleted", "restored", f"{STORE}::test_a_deleted_experiment_comes_back"),
     Fault("it is locked for a minute", "waited for, up to two minutes", f"{OPEN}::test_a_locked_store_is_waited_for"),
     Fault(

@@ -9,6 +9,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from softkin.core.errors import ResultError
+from softkin.core.files import file_sha256
 from softkin.tracking.served_model import ServedModel
 from tests.conftest import bending_arm
 from tests.unit.tracking.robots import robot
@@ -20,8 +22,29 @@ COMMANDS = bending_arm(12, seed=9).commands
 def served(tmp_path: Path) -> ServedModel:
     joblib.dump(robot(), tmp_path / "model.joblib")
     model = ServedModel()
-    model.load_context(SimpleNamespace(artifacts={"calibrated_model": str(tmp_path / "model.joblib")}))
+    model.load_context(context(tmp_path / "model.joblib", file_sha256(tmp_path / "model.joblib")))
     return model
+
+
+def context(file: Path, sha256: str) -> SimpleNamespace:
+    return SimpleNamespace(artifacts={"calibrated_model": str(file)}, model_config={"sha256": sha256})
+
+
+class Runs:
+    """What runs when it is unpickled."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return pytest.fail, ("it was run",)
+
+
+def test_a_file_that_is_not_the_one_that_was_registered_is_never_run(tmp_path: Path) -> None:
+    file = tmp_path / "model.joblib"
+    joblib.dump(robot(), file)
+    registered = file_sha256(file)
+    joblib.dump(Runs(), file)
+    with pytest.raises(ResultError, match="changed since it was registered") as refused:
+        ServedModel().load_context(context(file, registered))
+    assert refused.value.where == str(file)
 
 
 def answer(served: ServedModel, level: float) -> pd.DataFrame:
