@@ -34,6 +34,7 @@ include: "workflow/rules/local.smk"
 include: "workflow/rules/watch.smk"
 include: "workflow/rules/final_screen.smk"
 include: "workflow/rules/partial_tables.smk"
+include: "workflow/rules/other_params.smk"
 
 
 rule all:

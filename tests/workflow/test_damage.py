@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 from pathlib import Path
 
+import pandas as pd
 import pytest
 
 from tests.workflow.conftest import House
@@ -16,9 +17,10 @@ def test_an_edited_file_and_a_deleted_model_are_made_anew(house: House, tmp_path
     """Although all that was made from them is there."""
     work = tmp_path / "work"
     shutil.copytree(house.work, work)
-    quiet = house.snakemake("--dry-run", work=work)
-    assert "was changed" not in quiet.stderr
-    assert "is gone" not in quiet.stderr
+    there = House(house.root, work, house.mirror)
+    quiet = there.looking("--dry-run")[1]
+    assert "was changed" not in quiet
+    assert "is gone" not in quiet
     raw = work / "results" / "finger" / "raw"
     before = raw.read_bytes()
     raw.write_bytes(before + b" ")
@@ -30,5 +32,21 @@ def test_an_edited_file_and_a_deleted_model_are_made_anew(house: House, tmp_path
         in done.stderr
     )
     assert raw.read_bytes() == before
-    waiting = house.snakemake("--dry-run", "results/finger/calibrated_model.joblib", work=work)
-    assert "rule fit_model:" in waiting.stdout + waiting.stderr
+    assert "rule fit_model:" in there.looking("--dry-run", "results/finger/calibrated_model.joblib")[1]
+
+
+def test_what_had_other_params_is_made_anew_though_snakemakes_records_are_lost(house: House, tmp_path: Path) -> None:
+    """A seed that was changed in between, say: all that Snakemake sees then is that the files are there."""
+    shutil.copytree(house.work, tmp_path / "work", ignore=shutil.ignore_patterns(".snakemake"))
+    there = House(house.root, tmp_path / "work", house.mirror)
+    assert "other params" not in there.looking("--dry-run")[1]
+    said = there.looking("--dry-run", "--config", "seed=7")[1]
+    for words in ("fit_model finger lr", "calibrate finger", "score elastica_2023_09"):
+        assert f"softkin: {words} was done with other params (seed); it is done anew." in said
+    assert "prepare" not in said
+    fewer = ["--config", "max_rows_per_subset=100"]
+    table = "results/finger/table.parquet"
+    done = there.snakemake(table, *fewer)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "softkin: prepare finger was done with other params (max_rows); it is done anew." in done.stderr
+    assert len(pd.read_parquet(there.work / table)) < len(pd.read_parquet(house.work / table))

@@ -5,7 +5,7 @@ from softkin.core.job import job
 from softkin.data.audit.data_card import audit, left_out
 
 dataset = snakemake.wildcards.dataset
-with job(snakemake.log[0], f"audit {dataset}", snakemake.output, snakemake.input):
+with job(snakemake.log[0], f"audit {dataset}", snakemake.output, snakemake.input, snakemake.params):
     audit(
         snakemake.input.table,
         dataset=dataset,

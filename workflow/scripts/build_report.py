@@ -15,7 +15,7 @@ files, params = snakemake.input, snakemake.params
 datasets = params.config["datasets"]
 methods = {**INTERVAL_METHODS, **REGION_METHODS, **LABELLED_METHODS}
 of_robots = zip(files.descriptions, files.data_cards, files.card_pages, files.figures, strict=True)
-with job(snakemake.log[0], "build report", snakemake.output, snakemake.input):
+with job(snakemake.log[0], "build report", snakemake.output, snakemake.input, snakemake.params):
     build_report(
         tables=files.tables,
         robots={name: RobotFiles(*of_robot) for name, of_robot in zip(datasets, of_robots, strict=True)},

@@ -5,6 +5,6 @@ from softkin.core.files import write_json
 from softkin.core.job import job
 from softkin.tracking import create_store
 
-with job(snakemake.log[0], "create store", snakemake.output):
+with job(snakemake.log[0], "create store", snakemake.output, params=snakemake.params):
     create_store(with_credentials(snakemake.params.tracking_uri))
     write_json(snakemake.output[0], {"tracking_uri": snakemake.params.tracking_uri})

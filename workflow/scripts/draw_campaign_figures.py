@@ -8,7 +8,7 @@ from softkin.reporting.figures import CAMPAIGN_FIGURES
 from softkin.reporting.figures.drawing import draw
 from softkin.reporting.figures.spec import CampaignResults
 
-with job(snakemake.log[0], "draw campaign figures", snakemake.output, snakemake.input):
+with job(snakemake.log[0], "draw campaign figures", snakemake.output, snakemake.input, snakemake.params):
     results = CampaignResults(
         published_comparison=Path(snakemake.input.published_comparison),
         dataset_titles=snakemake.params.titles,

@@ -17,7 +17,7 @@ files, params, dataset = snakemake.input, snakemake.params, snakemake.wildcards.
 specs = QUANTILE_MODELS | MODELS
 
 
-with job(snakemake.log[0], f"draw figures {dataset}", snakemake.output, snakemake.input):
+with job(snakemake.log[0], f"draw figures {dataset}", snakemake.output, snakemake.input, snakemake.params):
     trials = files_of_runs(files.models, params.tuned, "trials.csv")
     results = DatasetResults(
         dataset=dataset,

@@ -27,7 +27,7 @@ def settings_of(preset):
     return searched_settings(read_json(parameters[preset]), params.robot["base"], params.seed, threads)
 
 
-with job(snakemake.log[0], f"fit {dataset} {model}", snakemake.output, snakemake.input):
+with job(snakemake.log[0], f"fit {dataset} {model}", snakemake.output, snakemake.input, snakemake.params):
     if searched:
         tune_table(
             files.table,

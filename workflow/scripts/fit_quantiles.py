@@ -13,7 +13,7 @@ table, params, output = snakemake.input.table, snakemake.params, snakemake.outpu
 dataset, model, tuning, threads = *snakemake.wildcards, params.tuning, snakemake.threads
 spec = QUANTILE_MODELS[model]
 of_presets = zip(params.presets, map(QuantileFiles, output.models, output.quantiles, output.records), strict=True)
-with job(snakemake.log[0], f"fit quantiles {dataset} {model}", snakemake.output, snakemake.input):
+with job(snakemake.log[0], f"fit quantiles {dataset} {model}", snakemake.output, snakemake.input, snakemake.params):
     fitted_with = dict.fromkeys(params.presets, spec.paper_params)
     if TUNED in params.presets:
         tune_quantiles(

@@ -5,7 +5,7 @@ from softkin.data.audit.cleaning import cleaned
 from softkin.data.prepare import prepare
 
 dataset = snakemake.wildcards.dataset
-with job(snakemake.log[0], f"prepare {dataset}", snakemake.output, snakemake.input):
+with job(snakemake.log[0], f"prepare {dataset}", snakemake.output, snakemake.input, snakemake.params):
     prepare(
         snakemake.input.raw,
         dataset=dataset,

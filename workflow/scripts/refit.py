@@ -20,7 +20,7 @@ def specs(runs):
     return {run: MODELS[run.model] for run in runs}
 
 
-with job(snakemake.log[0], f"refit {dataset}", snakemake.output, snakemake.input):
+with job(snakemake.log[0], f"refit {dataset}", snakemake.output, snakemake.input, snakemake.params):
     if output.refits:
         refit(
             files.table,

@@ -11,7 +11,7 @@ from softkin.data.retrieve import retrieve, take_own_file
 dataset = snakemake.wildcards.dataset
 source = snakemake.params.source
 place = {"dataset": dataset, "file": source["file"], "destination": snakemake.output[0]}
-with job(snakemake.log[0], f"retrieve {dataset}", snakemake.output):
+with job(snakemake.log[0], f"retrieve {dataset}", snakemake.output, params=snakemake.params):
     if "robot" in source:
         write_json(snakemake.output[0], {key: source[key] for key in RECIPE})
     elif "urls" in source:

@@ -86,6 +86,6 @@ def coverage():
     )
 
 
-with job(snakemake.log[0], f"score {dataset}", snakemake.output, snakemake.input):
+with job(snakemake.log[0], f"score {dataset}", snakemake.output, snakemake.input, snakemake.params):
     points()
     coverage()

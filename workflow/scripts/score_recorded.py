@@ -10,7 +10,7 @@ from softkin.training.kinematic_model import recorded_settings
 from softkin.uncertainty.choose import deployed_choice
 
 files, params, dataset = snakemake.input, snakemake.params, snakemake.wildcards.dataset
-with job(snakemake.log[0], f"score recorded {dataset}", snakemake.output):
+with job(snakemake.log[0], f"score recorded {dataset}", snakemake.output, params=snakemake.params):
     best = deployed_choice(files.choice)
     run = None
     if best is not None:

@@ -4,7 +4,7 @@ from softkin.campaigns.summary import Layout, summarise
 from softkin.core.job import job
 
 files, params = snakemake.input, snakemake.params
-with job(snakemake.log[0], "summarise", snakemake.output, snakemake.input):
+with job(snakemake.log[0], "summarise", snakemake.output, snakemake.input, snakemake.params):
     summarise(
         params.config,
         Layout(**params.layout),

@@ -17,7 +17,7 @@ for wanted, names in ((params.runs, OF_EVERY_RUN), (params.tuned, OF_SEARCHED_RU
         for run, path in files_of_runs(files.models, wanted, name).items():
             runs[run][kind] = path
 
-with job(snakemake.log[0], f"track {snakemake.wildcards.dataset}", snakemake.output, snakemake.input):
+with job(snakemake.log[0], f"track {snakemake.wildcards.dataset}", snakemake.output, snakemake.input, snakemake.params):
     campaign = Campaign(
         name=params.campaign,
         seed=params.seed,

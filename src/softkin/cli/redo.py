@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import json
 from base64 import urlsafe_b64encode
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
-from softkin.core.job_records import Damage, damages
+from softkin.core.job_params import other_params
+from softkin.core.job_records import Damage, damages, records
 
 RESULTS = Path("results")
 #: Where Snakemake (9.27.1) keeps a file for each output that a job has not finished: it is made anew.
 UNFINISHED = Path(".snakemake") / "incomplete"
+#: Where it keeps a file for each output with the params that it was made with.
+FINISHED = Path(".snakemake") / "metadata"
 #: Files that are named one by one.
 MOST_NAMED = 10
 
@@ -28,6 +32,32 @@ def redo_damaged(*, only_say: bool) -> Iterator[str]:
     yield from (f"{sentence}; it is made anew" for sentence in sentences(found))
 
 
+def redo_changed(params_of: Callable[[str], Mapping[str, Any] | None], *, only_say: bool) -> Iterator[str]:
+    """Mark every output that was made with other params as unfinished where Snakemake has lost its own record of them,
+    and say so; `only_say` marks none.
+
+    Parameters:
+        params_of: the words of a job (`fit_model finger gp`) -> its params now; None where there is no such job.
+        only_say: whether this run only looks.
+    """
+    found = []
+    for _, content in records(RESULTS):
+        if content is None or not content.get("params"):
+            continue
+        outputs = {Path(entry["output"]) for entry in content["files"].values()}
+        if all(_place(FINISHED, output).exists() for output in outputs):
+            continue
+        params = params_of(content["job"])
+        others = [] if params is None else other_params(content["params"], params)
+        if others:
+            found.append(f"{content['job']} was done with other params ({', '.join(others)})")
+            for output in outputs if not only_say else ():
+                _mark(output)
+    left = len(found) - MOST_NAMED
+    more = [f"{left} more jobs were done with other params"] * (left > 0)
+    yield from (f"{sentence}; it is done anew" for sentence in [*found[:MOST_NAMED], *more])
+
+
 def sentences(found: Sequence[Damage]) -> list[str]:
     """What is wrong with each file, the first ones by name."""
     words = {"missing": "is gone", "changed": "was changed since it was written"}
@@ -40,9 +70,14 @@ def _mark(output: Path) -> None:
     if not output.exists():
         # Snakemake overlooks an output that is gone while all that was made from it is there. An empty one it sees.
         output.touch()
+    marker = _place(UNFINISHED, output)
+    marker.parent.mkdir(parents=True, exist_ok=True)
+    marker.write_text(json.dumps({"external_jobid": None}), encoding="utf-8")
+
+
+def _place(folder: Path, output: Path) -> Path:
+    """The file in a folder of Snakemake's records that is of an output."""
     key = urlsafe_b64encode(output.as_posix().encode()).decode()
     # As Snakemake does it, since names of files are at most 255 bytes long.
     pieces = [key[start : start + 254] for start in range(0, len(key), 254)]
-    marker = UNFINISHED.joinpath(*(f"@{piece}" for piece in pieces[:-1]), pieces[-1])
-    marker.parent.mkdir(parents=True, exist_ok=True)
-    marker.write_text(json.dumps({"external_jobid": None}), encoding="utf-8")
+    return folder.joinpath(*(f"@{piece}" for piece in pieces[:-1]), pieces[-1])

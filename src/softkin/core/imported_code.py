@@ -25,6 +25,7 @@ WITHOUT_EFFECT = {
     "softkin.core.errors": "what is said when there is no result",
     "softkin.core.explained": "what is said of errors of libraries",
     "softkin.core.files": "how a file is put in place, whatever it holds",
+    "softkin.core.job_params": "notices what was made with other params",
     "softkin.core.job_records": "notices what was not written by softkin",
     "softkin.core.job": "log and stopwatch of a job",
     "softkin.core.strict_json": "refuses what is no JSON, and changes nothing",

@@ -7,11 +7,12 @@ import os
 import sys
 import time
 import traceback
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
+from typing import Any
 
 from softkin.core.clocks import used
 from softkin.core.credentials import hide_known
@@ -41,19 +42,27 @@ def _print_discreetly(kind: type[BaseException], error: BaseException, trace: Tr
 
 
 @contextmanager
-def job(log: str, label: str, outputs: Iterable[str] = (), inputs: Iterable[str] = ()) -> Iterator[None]:
+def job(
+    log: str,
+    label: str,
+    outputs: Iterable[str] = (),
+    inputs: Iterable[str] = (),
+    params: Mapping[str, Any] | None = None,
+    kept: Iterable[str] = (),
+) -> Iterator[None]:
     """Run a job: messages go to the file `log` and, from level INFO, to the terminal, marked with the time of day and
     `label`. Under `ON_A_SCREEN` nothing goes to the terminal, and what libraries write to it goes to the file.
 
-    Where it succeeds, what it wrote is recorded: the hashes of its `outputs` (`softkin.core.job_records`).
+    Where it succeeds, what it wrote is recorded: hashes of its `outputs` and of its `params`
+    (`softkin.core.job_records`), beside what is known of the files `kept` that it might have written and leaves.
 
     A `SoftkinError` ends the job with its message alone and exit status 1, and so does an error that a damaged one of
     its `inputs`, a library's store or the machine explains; the traceback is in the log file alone. Any other exception
     is a defect of softkin and keeps its traceback.
     """
-    written = list(outputs)
+    written, kept = list(outputs), list(kept)
     if written:
-        forget_job(log)
+        forget_job(log, kept)
     Path(log).parent.mkdir(parents=True, exist_ok=True)
     file = Path(log).open("w", encoding="utf-8")  # noqa: SIM115 (closed below, after the handlers that write to it)
     to_file = logging.StreamHandler(file)
@@ -72,7 +81,7 @@ def job(log: str, label: str, outputs: Iterable[str] = (), inputs: Iterable[str]
             check_ends(inputs)
             yield
         if written:
-            record_job(log, written)
+            record_job(log, written, params, kept)
     except SoftkinError as error:
         logger.error("%s", error)
         raise SystemExit(1) from error

@@ -9,13 +9,14 @@ from __future__ import annotations
 import hashlib
 import io
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from softkin.core.errors import DataError, ResultError
 from softkin.core.files import file_sha256, read_json, write_json
+from softkin.core.job_params import params_hashes
 
 FOLDER = "manifest"
 
@@ -39,23 +40,32 @@ def record_of(log: str | Path) -> Path:
     return Path(results, FOLDER, *names[:1], ".".join([rule, *names[1:]]) + ".json")
 
 
-def forget_job(log: str | Path) -> None:
-    """Take the record of a job away: it is about to write its outputs anew."""
-    record_of(log).unlink(missing_ok=True)
+def forget_job(log: str | Path, kept: Iterable[str] = ()) -> None:
+    """Take the record of a job away: it is about to write its outputs anew. What it has of the files `kept` stays."""
+    files = _recorded(log, kept)
+    if files:
+        write_json(record_of(log), {"job": " ".join(_names_in(log)), "params": {}, "files": files})
+    else:
+        record_of(log).unlink(missing_ok=True)
 
 
-def record_job(log: str | Path, outputs: Iterable[str | Path]) -> None:
-    """Write the record of a job that has written its `outputs`, files and folders of files. Its paths start in the
-    working directory of the run.
+def record_job(
+    log: str | Path,
+    outputs: Iterable[str | Path],
+    params: Mapping[str, Any] | None = None,
+    kept: Iterable[str] = (),
+) -> None:
+    """Write the record of a job that has written its `outputs`, files and folders of files: their hashes, and those of
+    its `params`, beside what it had of the files `kept`. Its paths start in the working directory of the run.
     """
     names = _names_in(log)
     folder = Path(log).absolute().parents[len(names) + 1]
-    files = {}
+    files = _recorded(log, kept)
     for output in (Path(output).absolute() for output in outputs):
         for path in _files_of(output):
             known = {"output": output.relative_to(folder).as_posix(), "sha256": file_sha256(path), **_stamp(path)}
             files[path.relative_to(folder).as_posix()] = known
-    write_json(record_of(log), {"job": " ".join(names), "files": files})
+    write_json(record_of(log), {"job": " ".join(names), "params": params_hashes(params or {}), "files": files})
 
 
 def recorded_sha256(path: str | Path) -> str | None:
@@ -142,6 +152,12 @@ def _names_in(log: str | Path) -> tuple[str, ...]:
     """Rule and wildcards of the job that has this log."""
     parts = Path(log).with_suffix("").parts
     return parts[len(parts) - parts[::-1].index("logs") :]
+
+
+def _recorded(log: str | Path, names: Iterable[str]) -> dict[str, Any]:
+    """What the record of a job has of the files of these names."""
+    content = read_record(record_of(log)) or {"files": {}}
+    return {name: content["files"][name] for name in names if name in content["files"]}
 
 
 def _files_of(output: Path) -> list[Path]:

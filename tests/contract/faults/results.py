@@ -26,6 +26,11 @@ FAULTS = [
         "workflow/test_damage.py::test_an_edited_file_and_a_deleted_model_are_made_anew",
     ),
     Fault(
+        "a seed was changed, and `.snakemake` was lost",
+        "each job with other params is named, and done anew by the next run",
+        "workflow/test_damage.py::test_what_had_other_params_is_made_anew_though_snakemakes_records_are_lost",
+    ),
+    Fault(
         "a damaged output is overlooked by Snakemake",
         "marked as unfinished",
         "unit/cli/test_redo.py::test_damaged_outputs_are_named_and_marked_as_snakemake_marks_them",

@@ -1,11 +1,13 @@
 from __future__ import annotations
 
 from base64 import urlsafe_b64encode
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from softkin.cli.redo import UNFINISHED, redo_damaged
+from softkin.cli.redo import FINISHED, UNFINISHED, redo_changed, redo_damaged
 from softkin.core.job_records import record_job
 
 FILES = [Path(f"results/finger/{name}.csv") for name in "abcdefghijklm"]
@@ -52,3 +54,36 @@ def test_of_many_files_the_first_are_named() -> None:
     assert len(said) == 11
     assert said[-1] == "3 more files are gone or were changed; it is made anew"
     assert len(marked()) == len(FILES)
+
+
+SCORE, FIT = "score finger", "fit_model finger lr"
+PARAMS: dict[str, dict[str, Any]] = {SCORE: {"seed": 1, "methods": ["qr"]}, FIT: {"seed": 1, "code": "ab"}}
+
+
+def test_what_was_done_with_other_params_is_done_anew_where_snakemake_has_lost_its_records() -> None:
+    record_job("results/logs/score/finger.log", FILES[:2], PARAMS[SCORE])
+    record_job("results/logs/fit_model/finger/lr.log", FILES[2:3], PARAMS[FIT])
+    assert list(redo_changed(PARAMS.get, only_say=False)) == []
+    assert marked() == set()
+    now: Mapping[str, dict[str, Any]] = {SCORE: {"methods": ["qr", "cqr"], "regions": []}}
+    said = ["score finger was done with other params (methods, regions, seed); it is done anew"]
+    assert list(redo_changed(now.get, only_say=True)) == said
+    assert marked() == set()
+    assert list(redo_changed(now.get, only_say=False)) == said
+    assert marked() == {urlsafe_b64encode(str(path).encode()).decode() for path in FILES[:2]}
+
+
+def test_where_snakemake_has_its_records_it_compares_by_itself() -> None:
+    record_job("results/logs/score/finger.log", FILES[:1], PARAMS[SCORE])
+    FINISHED.mkdir(parents=True)
+    (FINISHED / urlsafe_b64encode(str(FILES[0]).encode()).decode()).touch()
+    assert list(redo_changed({SCORE: {"seed": 2}}.get, only_say=False)) == []
+
+
+def test_of_many_jobs_the_first_are_named() -> None:
+    for path in FILES:
+        record_job(f"results/logs/fit_model/finger/{path.stem}.log", [path], {"seed": 1})
+    said = list(redo_changed(lambda words: {"seed": 2} if words.startswith("fit_model") else None, only_say=True))
+    assert len(said) == 11
+    assert said[0] == "fit_model finger a was done with other params (seed); it is done anew"
+    assert said[-1] == "3 more jobs were done with other params; it is done anew"

@@ -164,3 +164,19 @@ def test_clocks_that_jump_and_files_dated_in_the_future_are_no_damage(results: P
     MODEL.write_bytes(MODEL.read_bytes() + b"\0")
     os.utime(MODEL, (at, at))
     assert [one[1] for one in found(results)] == ["changed"]
+
+
+def test_a_file_that_a_job_leaves_as_it_is_stays_recorded(results: Path) -> None:
+    """Of an earlier job of the same log: while the job goes on, where it fails, and when it is done."""
+    fit = MODEL.parent / "fit.json"
+    before = recorded_sha256(MODEL)
+    with pytest.raises(ZeroDivisionError), job(str(LOG), "fit", [str(fit)], kept=[str(MODEL)]):
+        1 / 0  # noqa: B018
+    assert (recorded_sha256(MODEL), recorded_sha256(fit)) == (before, None)
+    with job(str(LOG), "fit", [str(fit)], kept=[str(MODEL)]):
+        assert (recorded_sha256(MODEL), recorded_sha256(fit)) == (before, None)
+        fit.write_text("{}")
+    assert (recorded_sha256(MODEL), found(results)) == (before, [])
+    with job(str(LOG), "fit", [str(fit)]):
+        fit.write_text("{}")
+    assert recorded_sha256(MODEL) is None
