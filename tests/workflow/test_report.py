@@ -25,8 +25,8 @@ def test_the_page_shows_the_run(house: House) -> None:
 
 
 def test_snakemakes_own_report_has_captions_and_categories(house: House, tmp_path: Path) -> None:
-    done = house.snakemake("--report", str(tmp_path / "report.html"))
-    assert done.returncode == 0, done.stdout + done.stderr
+    status, output = house.looking("--report", str(tmp_path / "report.html"))
+    assert status == 0, output
     text = (tmp_path / "report.html").read_text(encoding="utf-8")
     for part in ("Overview", "Tables", "Figures", "point_metrics.csv", "intervals_deployed", "job by job"):
         assert part in text

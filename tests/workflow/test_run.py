@@ -204,11 +204,11 @@ def test_a_second_run_does_nothing(house: House) -> None:
     before = {path: path.stat().st_mtime_ns for path in (house.work / "results").rglob("*") if path.is_file()}
     with sqlite3.connect(house.work / "mlflow.db") as store:
         runs_before = store.execute("select run_uuid, lifecycle_stage from runs order by 1").fetchall()
-    done = house.snakemake()
-    assert done.returncode == 0
-    assert "softkin: nothing was to be done" in done.stdout
-    assert "softkin: forward kinematics" in done.stdout
-    assert f"{house.work}/results/report.html  " in done.stdout
+    status, output = house.looking()
+    assert status == 0, output
+    assert "softkin: nothing was to be done" in output
+    assert "softkin: forward kinematics" in output
+    assert f"{house.work}/results/report.html  " in output
     assert {p: p.stat().st_mtime_ns for p in (house.work / "results").rglob("*") if p.is_file()} == before
     with sqlite3.connect(house.work / "mlflow.db") as store:
         assert store.execute("select run_uuid, lifecycle_stage from runs order by 1").fetchall() == runs_before
