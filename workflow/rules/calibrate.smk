@@ -7,13 +7,10 @@ rule calibrate:
         table="results/{dataset}/table.parquet",
         description="results/{dataset}/dataset.json",
     output:
-        intervals=expand(
-            "results/{{dataset}}/intervals/{method}.parquet",
-            method=config["interval_methods"],
-        ),
+        intervals=INTERVALS,
         manifest=INTERVAL_MANIFEST,
         choice="results/{dataset}/interval_choice.csv",
-        calibrated_model="results/{dataset}/calibrated_model.joblib",
+        calibrated_model=CALIBRATED_MODEL,
     log:
         "results/logs/calibrate/{dataset}.log",
     benchmark:
@@ -24,7 +21,7 @@ rule calibrate:
     threads: 1
     params:
         **interval_params(),
-        searched=searched_runs(),
+        searched=searched_runs,
         objective=config["objective"],
         regime=config["regime"],
         code=code_of("calibrate", *interval_modules()),

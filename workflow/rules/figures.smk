@@ -5,7 +5,7 @@ rule draw_figures:
         table="results/{dataset}/table.parquet",
         description="results/{dataset}/dataset.json",
         data_card="results/{dataset}/data_card.json",
-        models=MODEL_MANIFESTS,
+        models=model_manifests,
         intervals=INTERVAL_MANIFEST,
         point="results/{dataset}/point_metrics.csv",
         interval_metrics="results/{dataset}/interval_metrics.csv",
@@ -31,9 +31,9 @@ rule draw_figures:
         SOFTWARE
     threads: 1
     params:
-        runs=every_run(),
-        tuned=[run for run in every_run() if run[1] == TUNED],
-        methods=config["interval_methods"],
+        runs=every_run,
+        tuned=tuned_runs,
+        methods=methods_of,
         source=source,
         code=code_of("draw_figures"),
     script:

@@ -39,7 +39,7 @@ rule fit_model:
         "../scripts/fit_model.py"
 
 
-if QUANTILE_RUNS:
+if config["quantile_models"] and QUANTILE_PRESETS:
 
     # in:  the table of a dataset (rows of train are searched and fitted on, commands of the others predicted)
     # out: of each preset of a quantile regressor: the fitted one, its quantiles of validation, test and extrapolation,

@@ -1,13 +1,9 @@
-# When a job has failed: tables and report of the datasets that are complete, see src/softkin/cli/partial_tables.py. A
-# second Snakemake makes them when this one has ended. No rule of its own.
+# When a job has failed: tables and report of what is there, see src/softkin/cli/partial_tables.py. A second Snakemake makes
+# them when this one has ended; and where a job of that one fails, a third, of still less. No rule of its own.
 import atexit
 
-from softkin.cli.partial_tables import (
-    Undone,
-    complete_datasets,
-    run_without,
-    what_is_missing,
-)
+from softkin.cli.partial_tables import OF_ONE, Undone, plan, run_partial
+from softkin.core.failed_parts import failed_parts
 
 
 def undone_jobs():
@@ -15,31 +11,38 @@ def undone_jobs():
     failed = workflow.scheduler.failed
     for job in workflow.dag.needrun_jobs():
         if not job.is_norun:
-            wildcards = dict(job.wildcards_dict)
+            name, wildcards = job.rule.name, dict(job.wildcards_dict)
             dataset = wildcards.pop("dataset", "")
-            words = " ".join([job.rule.name, *wildcards.values()])
-            yield Undone(job.rule.name, dataset, words, job in failed)
+            parts = [(OF_ONE[name], of) for of in wildcards.values() if name in OF_ONE]
+            if job in failed and job.log:
+                parts += failed_parts(job.log[0])
+            words = " ".join([name, *wildcards.values()])
+            yield Undone(name, dataset, words, job in failed, parts)
 
 
 def plan_partial_tables():
-    """Have tables and report of the complete datasets made at the end, where this run would have made those of all."""
+    """Have tables and report of what is there made at the end, where this run would have made those of everything."""
     asked_for = {str(file) for job in workflow.dag.jobs for file in job.output}
-    stopped = workflow.scheduler._user_kill
-    if PARTIAL in os.environ or stopped or REPORT not in asked_for:
+    if workflow.scheduler._user_kill or REPORT not in asked_for:
         return
-    undone = list(undone_jobs())
-    complete = complete_datasets(config["datasets"], undone)
-    if complete:
-        missing = what_is_missing(config["datasets"], complete, undone)
-        atexit.register(make_partial_tables, missing, complete, Path.cwd())
+    on_quantiles = [
+        name
+        for name, method in INTERVAL_METHODS.items()
+        if method.calibrated_on.needs_quantiles
+    ]
+    partial = plan(
+        config, list(undone_jobs()), left_out=LEFT_OUT, on_quantiles=on_quantiles
+    )
+    if partial:
+        atexit.register(make_partial_tables, partial, Path.cwd())
 
 
-def make_partial_tables(missing, complete, folder):
+def make_partial_tables(partial, folder):
     """Hand the folder over to the run that makes them. The exit code stays that of this one."""
     os.chdir(folder)
     RUN.lock.release()
     print(
-        f"softkin: {missing} Tables and report of the others follow.",
+        f"softkin: {partial.missing} Tables and report of the rest follow.",
         file=sys.stderr,
         flush=True,
     )
@@ -47,4 +50,5 @@ def make_partial_tables(missing, complete, folder):
     command += ["--snakefile", str(workflow.main_snakefile)]
     if workflow.overwrite_workdir:  # else paths are shown as they are from here
         command += ["--directory", str(folder)]
-    run_without(missing, complete, config, command=command, report=REPORT)
+    cores = workflow.resource_settings.cores or 1
+    run_partial(partial, config, command=command, cores=cores, report=REPORT)

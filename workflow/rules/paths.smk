@@ -55,22 +55,6 @@ def of_searched(name):
     return of_presets(name, SEARCHED_PRESETS)
 
 
-def every_run(models=tuple(config["models"])):
-    """[model, preset] of each run that one dataset gets."""
-    return [[model, preset] for model in models for preset in config["presets"]]
-
-
-def searched_runs():
-    """[model, preset] of each run whose parameters come from a study."""
-    return [run for run in every_run() if run[1] in SEARCHED]
-
-
-# The manifests of a dataset's models: they stand for all files of the models, see src/softkin/core/manifest.py.
-MODEL_MANIFESTS = [
-    f"results/{{dataset}}/{model}/{MANIFEST}" for model in config["models"]
-]
-
-
 def asks_for(trait):
     """Whether the calibration data of a configured interval method have this trait."""
     methods = [INTERVAL_METHODS[name] for name in config["interval_methods"]]
@@ -89,38 +73,11 @@ ROBUST_MODELS = [name for name in config["models"] if MODELS[name].is_robust]
 QUANTILE_PRESETS = [
     preset for preset in config["presets"] if preset in (PAPER, TUNED)
 ] * asks_for("needs_quantiles")
-QUANTILE_RUNS = [
-    [name, preset] for name in config["quantile_models"] for preset in QUANTILE_PRESETS
-]
-QUANTILE_MANIFESTS = [
-    f"results/{{dataset}}/quantiles/{name}/{MANIFEST}"
-    for name in config["quantile_models"]
-] * bool(QUANTILE_PRESETS)
 # The refits that a configured method needs; none of the others are made.
 REFITS = ["results/{dataset}/refits.npz"] * asks_for("needs_refits")
 SHELLS = ["results/{dataset}/shells.npz"] * asks_for("needs_shells")
 OTHER_SPACES = ["results/{dataset}/other_spaces.parquet"] * bool(COMPARED)
-
-
 INTERVAL_MANIFEST = f"results/{{dataset}}/intervals/{MANIFEST}"
-# All that the interval methods start from, of one dataset.
-STORED_OUTPUTS = {
-    "models": MODEL_MANIFESTS,
-    "quantile_models": QUANTILE_MANIFESTS,
-    "refits": REFITS,
-    "shells": SHELLS,
-}
-
-
-def interval_params():
-    """The params that all interval rules share."""
-    return {
-        "methods": config["interval_methods"],
-        "runs": every_run(),
-        "quantile_runs": QUANTILE_RUNS,
-        "confidence_levels": config["confidence_levels"],
-        "seed": config["seed"],
-    }
 
 
 def of_quantile_presets(name, presets=(PAPER, TUNED)):

@@ -7,7 +7,7 @@ if REFITS or SHELLS or COMPARED:
     rule refit:
         input:
             table="results/{dataset}/table.parquet",
-            models=MODEL_MANIFESTS,
+            models=model_manifests,
         output:
             refits=REFITS,
             shells=SHELLS,
@@ -21,12 +21,12 @@ if REFITS or SHELLS or COMPARED:
             SOFTWARE
         threads: 1
         params:
-            runs=every_run(),
-            searched=searched_runs(),
+            runs=every_run,
+            searched=searched_runs,
             objective=config["objective"],
             cheap_models=CHEAP_MODELS,
             robust_models=ROBUST_MODELS,
-            compared=COMPARED,
+            compared=compared_models,
             refitting=config["refitting"],
             shell_settings=config["shells"],
             max_fit_rows=config["max_fit_rows"],

@@ -28,11 +28,11 @@ rule score:
     params:
         **interval_params(),
         robot=robot,
-        searched=searched_runs(),
+        searched=searched_runs,
         objective=config["objective"],
-        compared=COMPARED,
+        compared=compared_models,
         robust_models=ROBUST_MODELS,
-        regions=config["regions"],
+        regions=regions_of,
         code=code_of("score", *region_modules()),
     script:
         "../scripts/score.py"

@@ -6,7 +6,7 @@ if RECORDED:
     rule score_recorded:
         input:
             table="results/{dataset}/table.parquet",
-            models=MODEL_MANIFESTS,
+            models=model_manifests,
             choice="results/{dataset}/interval_choice.csv",
         output:
             "results/{dataset}/recorded.csv",
@@ -19,7 +19,7 @@ if RECORDED:
             SOFTWARE
         threads: 1
         params:
-            runs=every_run(),
+            runs=every_run,
             confidence_levels=config["confidence_levels"],
             seed=config["seed"],
             code=code_of("score_recorded"),

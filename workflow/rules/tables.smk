@@ -12,7 +12,7 @@ rule build_tables:
         spaces=of_every_dataset("results/{dataset}/target_spaces.csv"),
         description=of_every_dataset("results/{dataset}/dataset.json"),
         data_card=of_every_dataset("results/{dataset}/data_card.json"),
-        models=of_every_dataset(MODEL_MANIFESTS),
+        models=[file for name in config["datasets"] for file in manifests_of(name)],
         recorded=expand("results/{dataset}/recorded.csv", dataset=RECORDED),
     output:
         headline=report(
@@ -46,7 +46,7 @@ rule build_tables:
     conda:
         SOFTWARE
     params:
-        searched=searched_runs(),
+        searched={name: searched_of(name) for name in config["datasets"]},
         objective=config["objective"],
         caution=config.get("caution"),
         sources={name: config["sources"][name] for name in config["datasets"]},

@@ -3,11 +3,11 @@ def timed_jobs():
     """[rule, dataset, model] (empty: all of them), benchmark and records of each job that is timed."""
     per_model = {
         "fit_model": (
-            config["models"],
+            "models",
             of_presets("fit.json") + of_searched("parameters.json"),
         ),
         "fit_quantiles": (
-            config["quantile_models"] * bool(QUANTILE_PRESETS),
+            "quantile_models",
             of_quantile_presets("fit.json")
             + of_quantile_presets("parameters.json", [TUNED]),
         ),
@@ -17,8 +17,8 @@ def timed_jobs():
         per_dataset.insert(0, "refit")
     jobs = []
     for dataset in config["datasets"]:
-        for stage, (models, records) in per_model.items():
-            for model in models:
+        for stage, (key, records) in per_model.items():
+            for model in configured(key, dataset) * bool(records):
                 benchmark = f"results/benchmarks/{stage}/{dataset}/{model}.tsv"
                 names = {"dataset": dataset, "model": model, "quantile_model": model}
                 jobs.append(

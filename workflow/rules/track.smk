@@ -22,7 +22,7 @@ rule track:
         description="results/{dataset}/dataset.json",
         data_card="results/{dataset}/data_card.json",
         point="results/{dataset}/point_metrics.csv",
-        models=MODEL_MANIFESTS,
+        models=model_manifests,
         intervals="results/{dataset}/interval_metrics.csv",
         figures="results/{dataset}/figures",
         calibrated_model="results/{dataset}/calibrated_model.joblib",
@@ -36,8 +36,8 @@ rule track:
     conda:
         SOFTWARE
     params:
-        runs=every_run(),
-        tuned=searched_runs(),
+        runs=every_run,
+        tuned=searched_runs,
         campaign=config["campaign"],
         seed=config["seed"],
         tracking_uri=tracking_uri(),

@@ -14,15 +14,13 @@ files, params = snakemake.input, snakemake.params
 published = Path(snakemake.scriptdir).resolve().parents[1] / "resources" / "published"
 kinds = ("point", "markers", "intervals", "choice", "conditional", "alarms", "extrapolation", "spaces")
 by_dataset = zip(*(files[kind] for kind in (*kinds, "description", "data_card")), strict=True)
-n_models = len(files.models) // len(params.sources)
+manifests = {dataset: [file for file in files.models if Path(file).parts[-3] == dataset] for dataset in params.sources}
 parameters = {
     (dataset, *run): path
-    for place, dataset in enumerate(params.sources)
-    for run, path in files_of_runs(
-        files.models[place * n_models : (place + 1) * n_models], params.searched, "parameters.json"
-    ).items()
+    for dataset, runs in params.searched.items()
+    for run, path in files_of_runs(manifests[dataset], runs, "parameters.json").items()
 }
-with job(snakemake.log[0], "build tables", snakemake.output, snakemake.input):
+with job(snakemake.log[0], "build tables", snakemake.output, snakemake.input, snakemake.params):
     tables = read_tables(
         {name: DatasetFiles(*of_dataset) for name, of_dataset in zip(params.sources, by_dataset, strict=True)},
         sources=params.sources,

@@ -1,5 +1,7 @@
 """Rule calibrate: put the intervals of every method around a dataset's models; choose one, with its model a file."""
 
+from pathlib import Path
+
 from softkin.core.job import job
 from softkin.core.manifest import files_of_runs, write_manifest
 from softkin.core.runs import Run
@@ -15,7 +17,11 @@ files, params, output, dataset = snakemake.input, snakemake.params, snakemake.ou
 methods = {name: INTERVAL_METHODS[name] for name in params.methods}
 models = files_of_runs(files.models, params.runs, "model.joblib")
 parameters = files_of_runs(files.models, params.searched, "parameters.json")
-with job(snakemake.log[0], f"calibrate {dataset}", snakemake.output, snakemake.input):
+intervals = {name: str(Path(output.manifest).with_name(f"{name}.parquet")) for name in methods}
+written = list(dict.fromkeys([*output, *intervals.values()]))
+# Where the calibrated model is not asked for, that of an earlier run stays, and can be loaded.
+kept = [] if output.calibrated_model else [f"results/{dataset}/calibrated_model.joblib"]
+with job(snakemake.log[0], f"calibrate {dataset}", written, snakemake.input, snakemake.params, kept):
     outputs = stored_outputs(files, params)
     candidates = deployable_runs(list(models), parameters, params.objective)
     choose(outputs, methods=methods, runs=candidates, seed=params.seed, regime=params.regime, choice=output.choice)
@@ -25,16 +31,17 @@ with job(snakemake.log[0], f"calibrate {dataset}", snakemake.output, snakemake.i
         outputs,
         methods=methods,
         in_domain=in_domain,
-        intervals=dict(zip(methods, output.intervals, strict=True)),
+        intervals=intervals,
     )
-    build_calibrated_model(
-        files.table,
-        description=files.description,
-        choice=output.choice,
-        specs=MODELS,
-        methods=INTERVAL_METHODS,
-        models=models,
-        shells=next(iter(files.shells), None),
-        output=output.calibrated_model,
-    )
-    write_manifest(output.manifest, output.intervals)
+    for calibrated_model in output.calibrated_model:
+        build_calibrated_model(
+            files.table,
+            description=files.description,
+            choice=output.choice,
+            specs=MODELS,
+            methods=INTERVAL_METHODS,
+            models=models,
+            shells=next(iter(files.shells), None),
+            output=calibrated_model,
+        )
+    write_manifest(output.manifest, intervals.values())

@@ -24,6 +24,7 @@ WITHOUT_EFFECT = {
     "softkin.core.durations": "words of the log",
     "softkin.core.errors": "what is said when there is no result",
     "softkin.core.explained": "what is said of errors of libraries",
+    "softkin.core.failed_parts": "says on what a job failed",
     "softkin.core.files": "how a file is put in place, whatever it holds",
     "softkin.core.job_params": "notices what was made with other params",
     "softkin.core.job_records": "notices what was not written by softkin",

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from softkin.core.bounds import bounds_levels, read_bounds
 from softkin.core.errors import DataError
+from softkin.core.failed_parts import INTERVAL_METHODS, of_part
 from softkin.core.files import replacing
 from softkin.core.metrics.interval import (
     clopper_pearson,
@@ -80,7 +81,8 @@ def score_intervals(
         n_calibration = _n_calibration(method, outputs)
         stored = dict(list(pd.read_parquet(intervals[name]).groupby(["model", "preset"], sort=False)))
         for run, data in outputs.of(method.calibrated_on):
-            scores, levels = _crps(method, outputs, data, truth), bounds_levels(stored[run])
+            with of_part(INTERVAL_METHODS, name):
+                scores, levels = _crps(method, outputs, data, truth), bounds_levels(stored[run])
             for subset, true in truth.items():
                 bounds = read_bounds(stored[run], subset, levels)
                 crossings = _crossings(method, outputs, run, subset, bounds)

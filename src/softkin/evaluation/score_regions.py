@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from softkin.core.failed_parts import REGIONS, of_part
 from softkin.core.files import replacing
 from softkin.core.metrics.interval import clopper_pearson, coverage_band, coverage_p_value
 from softkin.core.runs import Run
@@ -40,8 +41,9 @@ def region_rows(
     for (model, preset), residuals in moving_residuals(outputs, truth):
         for name, method in methods.items():
             for level in outputs.levels:
-                for row in _coverages(method, residuals, markers, level):
-                    yield {"model": model, "preset": preset, "interval_method": name, **row}
+                with of_part(REGIONS, name):
+                    rows = list(_coverages(method, residuals, markers, level))
+                yield from ({"model": model, "preset": preset, "interval_method": name, **row} for row in rows)
 
 
 def score_alarms(

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from softkin.core.errors import ConfigError
+from softkin.core.failed_parts import MODELS, of_part
 from softkin.core.files import read_json
 from softkin.core.folds import folds_of
 from softkin.core.job import stopwatch
@@ -90,7 +91,7 @@ def refit(
         for part, fits in parts.items():
             predicted = []
             for rows in fits:
-                with stopwatch() as watch:
+                with of_part(MODELS, run.model), stopwatch() as watch:
                     model = fitted_model(spec, fit_settings, train.take(rows))
                 cpu_seconds += watch.cpu_seconds
                 predicted.append(model.predict(everywhere))

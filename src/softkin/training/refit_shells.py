@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from softkin.core.failed_parts import MODELS, of_part
 from softkin.core.files import read_json
 from softkin.core.job import stopwatch
 from softkin.core.run_archive import CPU_SECONDS, RunArchive
@@ -96,7 +97,7 @@ def refit_shells(
         max_rows = min(settings.max_rows, max_fit_rows.get(run.model, settings.max_rows))
         for place, (core, shell) in enumerate(parts):
             samples = some_rows(train.take(core), max_rows, settings.seed)
-            with stopwatch() as watch:
+            with of_part(MODELS, run.model), stopwatch() as watch:
                 model = fitted_model(spec, fit_settings, samples)
             cpu_seconds += watch.cpu_seconds
             predictions[run, str(place)] = np.asarray(model.predict(train.take(shell).inputs))

@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 
 from softkin.core.errors import SoftkinError
+from softkin.core.failed_parts import MODELS, of_part
 from softkin.core.files import read_json, replacing
 from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, Params, coordinate_columns
 from softkin.data.table import read_subset
@@ -63,7 +64,8 @@ def refit_spaces(
             logger.warning("%s is left out in %s: %s", model, other["target_space"], error)
             continue
         for subset, rows in inputs.items():
-            frame = pd.DataFrame(np.asarray(estimator.predict(rows)), columns=columns)
+            with of_part(MODELS, model):
+                frame = pd.DataFrame(np.asarray(estimator.predict(rows)), columns=columns)
             frames.append(frame.assign(model=model, target_space=other["target_space"], subset=subset))
         logger.info("%d of %d models fitted: %s in %s", place + 1, len(specs), model, other["target_space"])
     with replacing(predictions) as temporary:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from sklearn.model_selection import KFold
 
 from softkin.core.errors import ConfigError
+from softkin.core.failed_parts import INTERVAL_METHODS, of_part
 from softkin.core.files import replacing
 from softkin.core.metrics.interval import winkler_scores
 from softkin.core.runs import Run, nearest_level
@@ -115,7 +116,8 @@ def _scored_candidates(
                 continue
             scores: dict[float, list[Array]] = {level: [], outputs.levels[0]: []}
             for part, held_out in resplits(data, seed):
-                bounds = method.intervals(part, outputs.levels)
+                with of_part(INTERVAL_METHODS, name):
+                    bounds = method.intervals(part, outputs.levels)
                 for at, of_level in scores.items():
                     winkler = winkler_scores(data.truth[held_out], bounds[outputs.levels.index(at)], at)
                     of_level.append(winkler[:, moving].mean(axis=1))

@@ -1,49 +1,116 @@
-"""Which datasets are complete when a job has failed, and how their tables are asked for."""
+"""What tables are made of when a job has failed, and how they are asked for."""
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from softkin.cli.partial_tables import PARTIAL, Undone, complete_datasets, run_without, what_is_missing
+from softkin.cli.partial_tables import PARTIAL, LeftOut, Partial, Undone, plan, run_partial
 from softkin.core.files import read_json
 
-DATASETS = ["arm", "finger", "trunk"]
-FAILED = Undone("fit_model", "finger", "fit_model gp", failed=True)
-NOT_STARTED = Undone("calibrate", "finger", "calibrate", failed=False)
+CONFIG: dict[str, Any] = {
+    "datasets": ["arm", "finger", "trunk"],
+    "models": ["lr", "gp"],
+    "quantile_models": ["gb"],
+    "interval_methods": ["qr", "scp_mapie", "auto"],
+    "regions": ["joint_box"],
+}
+GP = Undone("fit_model", "finger", "fit_model gp", failed=True, parts=[("models", "gp")])
+WAITS = [Undone(rule, "finger", rule, failed=False) for rule in ("refit", "calibrate", "score", "track")]
 TABLES = Undone("build_tables", "", "build_tables", failed=False)
 
 
-def test_a_dataset_with_a_job_undone_is_left_out_and_named() -> None:
-    undone = [FAILED, NOT_STARTED, TABLES]
-    assert complete_datasets(DATASETS, undone) == ["arm", "trunk"]
-    assert what_is_missing(DATASETS, ["arm", "trunk"], undone) == "Incomplete: without finger (fit_model gp failed)."
+def planned(*undone: Undone, left_out: Mapping[str, LeftOut] | None = None, **config: Any) -> Partial | None:
+    return plan(CONFIG | config, undone, left_out=left_out or {}, on_quantiles=["qr", "cqr"])
 
 
-def test_a_dataset_that_waited_in_vain_is_named_without_a_job() -> None:
-    undone = [FAILED, Undone("prepare", "arm", "prepare", failed=False)]
-    assert what_is_missing(DATASETS, ["trunk"], undone) == "Incomplete: without arm, finger (fit_model gp failed)."
+def test_a_dataset_does_without_a_model_that_failed_and_it_is_named() -> None:
+    partial = planned(GP, *WAITS, TABLES)
+    assert partial is not None
+    assert partial.datasets == CONFIG["datasets"]
+    assert partial.left_out == {"finger": {"models": ["gp"]}}
+    assert partial.missing == "Incomplete: without the model gp on finger (fit_model gp failed)."
 
 
-def test_where_tables_themselves_failed_there_is_nothing_to_make() -> None:
-    failed = Undone("build_tables", "", "build_tables", failed=True)
-    assert complete_datasets(DATASETS, [failed]) == []
+@pytest.mark.parametrize(
+    ("rule", "part", "words"),
+    [
+        ("calibrate", ("interval_methods", "auto"), "the interval method auto on finger (calibrate failed)"),
+        ("score", ("regions", "joint_box"), "the region joint_box on finger (score failed)"),
+        ("refit", ("models", "gp"), "the model gp on finger (refit failed)"),
+    ],
+)
+def test_a_dataset_does_without_what_a_job_of_it_failed_on(rule: str, part: tuple[str, str], words: str) -> None:
+    partial = planned(Undone(rule, "finger", rule, failed=True, parts=[part]))
+    assert partial is not None
+    assert partial.left_out == {"finger": {part[0]: [part[1]]}}
+    assert partial.missing == f"Incomplete: without {words}."
 
 
-def test_a_store_that_fails_takes_no_tables() -> None:
-    """They are made by the run itself."""
-    assert complete_datasets(DATASETS, [Undone("track", "arm", "track", failed=True)]) == []
+@pytest.mark.parametrize("rule", ["retrieve", "prepare", "calibrate", "score", "draw_figures"])
+def test_a_dataset_is_left_out_where_nobody_knows_what_it_could_do_without(rule: str) -> None:
+    partial = planned(Undone(rule, "finger", rule, failed=True), GP)
+    assert partial is not None
+    assert partial.datasets == ["arm", "trunk"]
+    assert partial.left_out == {}
+    assert partial.missing == f"Incomplete: without finger ({', '.join(sorted([rule, 'fit_model gp']))} failed)."
 
 
-def test_where_no_dataset_is_complete_there_is_nothing_to_make() -> None:
-    assert complete_datasets(["finger"], [FAILED]) == []
+def test_a_dataset_is_left_out_where_no_model_or_no_method_is_left() -> None:
+    lr = Undone("fit_model", "finger", "fit_model lr", failed=False, parts=[("models", "lr")])
+    partial = planned(GP, lr)
+    assert partial is not None
+    assert partial.datasets == ["arm", "trunk"]
+    assert partial.missing == "Incomplete: without finger (fit_model gp failed)."
+    regressor = Undone("fit_quantiles", "arm", "fit_quantiles gb", failed=True, parts=[("quantile_models", "gb")])
+    partial = planned(regressor, interval_methods=["qr", "cqr"])
+    assert partial is not None
+    assert partial.datasets == ["finger", "trunk"]
 
 
-def test_they_are_asked_for_with_a_caution_and_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_methods_that_need_quantiles_go_with_the_last_quantile_regressor() -> None:
+    regressor = Undone("fit_quantiles", "arm", "fit_quantiles gb", failed=True, parts=[("quantile_models", "gb")])
+    partial = planned(regressor)
+    assert partial is not None
+    assert partial.left_out == {"arm": {"quantile_models": ["gb"], "interval_methods": ["qr"]}}
+    partial = planned(regressor, quantile_models=["gb", "xgb"])
+    assert partial is not None
+    assert partial.left_out == {"arm": {"quantile_models": ["gb"]}}
+
+
+def test_a_run_that_left_something_out_and_failed_leaves_that_out_too() -> None:
+    before = {"finger": {"models": ["gp"]}, "arm": {"regions": ["joint_box"]}}
+    failed = Undone("calibrate", "finger", "calibrate", failed=True, parts=[("interval_methods", "auto")])
+    partial = planned(failed, left_out=before)
+    assert partial is not None
+    assert partial.left_out == before | {"finger": {"models": ["gp"], "interval_methods": ["auto"]}}
+    assert partial.missing == "Incomplete: without the interval method auto on finger (calibrate failed)."
+
+
+@pytest.mark.parametrize(
+    "undone",
+    [
+        Undone("build_tables", "", "build_tables", failed=True),
+        Undone("track", "arm", "track", failed=True),  # its tables are made by the run itself
+    ],
+)
+def test_where_no_dataset_lacks_anything_there_is_nothing_to_make(undone: Undone) -> None:
+    assert planned(undone) is None
+
+
+def test_where_no_dataset_is_left_there_is_nothing_to_make() -> None:
+    assert planned(Undone("prepare", "finger", "prepare", failed=True), datasets=["finger"]) is None
+
+
+def test_they_are_asked_for_with_a_caution_and_what_is_left_out(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.chdir(tmp_path)
     called: list[Any] = []
 
@@ -52,13 +119,14 @@ def test_they_are_asked_for_with_a_caution_and_once(tmp_path: Path, monkeypatch:
         return subprocess.CompletedProcess(command, 3)
 
     monkeypatch.setattr(subprocess, "run", run)
-    config = {"datasets": DATASETS, "caution": "Few trials.", "seed": 1}
-    assert run_without("Incomplete.", ["arm"], config, command=["snakemake"], report="results/report.html") == 3
+    config = {"datasets": CONFIG["datasets"], "caution": "Few trials.", "seed": 1}
+    partial = Partial(["arm"], {"arm": {"models": ["gp"]}}, "Incomplete.")
+    assert run_partial(partial, config, command=["snakemake"], cores=2, report="results/report.html") == 3
     ((command, environment, _),) = called
-    assert command[0] == "snakemake"
+    assert command[:3] == ["snakemake", "--cores", "2"]
     assert command[-2:] == ["--", "results/report.html"]
-    assert "track" not in command
-    assert environment[PARTIAL] == "1"
+    assert not {"track", "fit_model"} & set(command)
+    assert json.loads(environment[PARTIAL]) == {"arm": {"models": ["gp"]}}
     assert PARTIAL not in os.environ
     given = read_json(command[command.index("--configfile") + 1])
     assert given == {"datasets": ["arm"], "caution": "Incomplete. Few trials.", "seed": 1}

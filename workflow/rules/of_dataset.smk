@@ -1,0 +1,109 @@
+# What one dataset gets of the configured models and methods: all of them, but in a run that makes tables of what is there
+# after a job has failed.
+import json
+import os
+
+from softkin.cli.partial_tables import PARTIAL
+
+# Set in a run that makes tables of what is there after a job has failed: what a dataset does without, by key of the
+# configuration, see src/softkin/cli/partial_tables.py.
+LEFT_OUT = json.loads(os.environ.get(PARTIAL, "{}"))
+
+
+def configured(key, dataset):
+    """The models, interval methods, ... of a dataset: those of this key of the configuration that are not left out."""
+    out = LEFT_OUT.get(dataset, {}).get(key, ())
+    return [name for name in config[key] if name not in out]
+
+
+def every_run(wildcards):
+    """[model, preset] of each run of a dataset."""
+    models = configured("models", wildcards.dataset)
+    return [[model, preset] for model in models for preset in config["presets"]]
+
+
+def searched_of(dataset):
+    """[model, preset] of each run of a dataset whose parameters come from a study."""
+    models = configured("models", dataset)
+    return [[model, preset] for model in models for preset in SEARCHED_PRESETS]
+
+
+def searched_runs(wildcards):
+    """Those of the dataset of a job."""
+    return searched_of(wildcards.dataset)
+
+
+def tuned_runs(wildcards):
+    """[model, preset] of each tuned run of a dataset."""
+    return [run for run in every_run(wildcards) if run[1] == TUNED]
+
+
+def manifests_of(dataset):
+    """The manifests of a dataset's models: they stand for all files of the models, see src/softkin/core/manifest.py."""
+    models = configured("models", dataset)
+    return [f"results/{dataset}/{model}/{MANIFEST}" for model in models]
+
+
+def model_manifests(wildcards):
+    """The manifests of a dataset's models."""
+    return manifests_of(wildcards.dataset)
+
+
+def compared_models(wildcards):
+    """Those of them that a dataset has."""
+    models = configured("models", wildcards.dataset)
+    return [name for name in COMPARED if name in models]
+
+
+def quantile_runs(wildcards):
+    """[quantile regressor, preset] of each run of a dataset."""
+    names = configured("quantile_models", wildcards.dataset)
+    return [[name, preset] for name in names for preset in QUANTILE_PRESETS]
+
+
+def quantile_manifests(wildcards):
+    """The manifests of a dataset's quantile regressors."""
+    dataset = wildcards.dataset
+    names = [name for name, _ in quantile_runs(wildcards)]
+    return [
+        f"results/{dataset}/quantiles/{of}/{MANIFEST}" for of in dict.fromkeys(names)
+    ]
+
+
+# What a run that makes tables of what is there must not declare: it may have fewer intervals of a dataset, and the
+# calibrated model of an earlier run stays.
+INTERVALS = expand(
+    "results/{{dataset}}/intervals/{method}.parquet",
+    method=config["interval_methods"] * (PARTIAL not in os.environ),
+)
+CALIBRATED_MODEL = ["results/{dataset}/calibrated_model.joblib"] * (
+    PARTIAL not in os.environ
+)
+# All that the interval methods start from, of one dataset.
+STORED_OUTPUTS = {
+    "models": model_manifests,
+    "quantile_models": quantile_manifests,
+    "refits": REFITS,
+    "shells": SHELLS,
+}
+
+
+def methods_of(wildcards):
+    """The interval methods of a dataset."""
+    return configured("interval_methods", wildcards.dataset)
+
+
+def regions_of(wildcards):
+    """The joint regions of a dataset."""
+    return configured("regions", wildcards.dataset)
+
+
+def interval_params():
+    """The params that all interval rules share."""
+    return {
+        "methods": methods_of,
+        "runs": every_run,
+        "quantile_runs": quantile_runs,
+        "confidence_levels": config["confidence_levels"],
+        "seed": config["seed"],
+    }
