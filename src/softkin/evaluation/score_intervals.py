@@ -25,8 +25,10 @@ from softkin.core.metrics.interval import (
     widths,
     winkler_scores,
 )
+from softkin.core.rows import row_groups
 from softkin.core.runs import Run
 from softkin.core.samples import SUBSETS, TEST, Array, coordinate_columns, informative_coordinates
+from softkin.data.audit.gross_rows import gross_rows
 from softkin.data.table import read_subset
 from softkin.evaluation.score_regions import region_rows
 from softkin.uncertainty.calibration_data import CalibrationData, QuantileCalibration
@@ -37,7 +39,9 @@ from softkin.uncertainty.stored_outputs import INTERVAL_SUBSETS, StoredOutputs
 
 @dataclass(frozen=True, slots=True)
 class _Setting:
-    """What the rows of one method around one run have in common at one level; the guarantee is that on this subset."""
+    """What the rows of one method around one run have in common at one level; the guarantee is that on this subset,
+    `gross` the mask (n_rows,) of its gross errors.
+    """
 
     file: str | Path
     true: Array
@@ -46,6 +50,8 @@ class _Setting:
     level: float
     method: IntervalMethod[Any]
     guarantee: str
+    gross: NDArray[np.bool_]
+    n_commands: int
 
 
 def score_intervals(
@@ -60,6 +66,8 @@ def score_intervals(
 ) -> None:
     """Write a row per subset, model, preset, method, coordinate and level.
 
+    Winkler scores are given of all rows and without gross errors, those that the audit names.
+
     Parameters:
         table: the tidy table.
         dataset: its name.
@@ -73,7 +81,10 @@ def score_intervals(
         DataError: a symmetric interval of constant width has a mean Winkler score below twice its mean absolute error,
             which cannot be: files of different runs were mixed.
     """
-    positions = {subset: read_subset(table, subset).positions for subset in SUBSETS}
+    samples = {subset: read_subset(table, subset) for subset in SUBSETS}
+    positions = {subset: rows.positions for subset, rows in samples.items()}
+    gross = gross_rows(samples)
+    n_commands = {subset: int(row_groups(rows.commands).max()) + 1 for subset, rows in samples.items()}
     truth = {subset: positions[subset] for subset in INTERVAL_SUBSETS}
     informative = informative_coordinates(outputs.train.positions)
     rows: list[dict[str, Any]] = []
@@ -88,7 +99,10 @@ def score_intervals(
                 crossings = _crossings(method, outputs, run, subset, bounds)
                 guarantee = method.guarantee if subset == TEST else NO_GUARANTEE
                 for place, level in enumerate(levels):
-                    setting = _Setting(intervals[name], true, informative, n_calibration, level, method, guarantee)
+                    setting = _Setting(
+                        intervals[name], true, informative, n_calibration, level, method, guarantee,
+                        gross[subset], n_commands[subset],
+                    )  # fmt: skip
                     key = {"dataset": dataset, "subset": subset, "model": run.model, "preset": run.preset}
                     key |= {"interval_method": name}
                     rows += [key | row for row in _rows(setting, bounds[place], crossings[place], scores[subset])]
@@ -144,12 +158,15 @@ def _rows(setting: _Setting, bounds: Array, crossings: NDArray[np.bool_], scores
         p_values = np.array([band["coverage_p_value"] for band in bands])
         adjusted[setting.informative] = holm(p_values[setting.informative])
     common = {"confidence_level": setting.level, "n_calibration": setting.n_calibration, "n_rows": n_rows}
+    common |= {"n_commands": setting.n_commands, "n_gross_rows": int(setting.gross.sum())}
+    regular = winkler[~setting.gross] if not setting.gross.all() else np.full_like(winkler, np.nan)
 
     def averages(mask: Any) -> dict[str, Any]:
         return {
             "coverage": is_covered[:, mask].mean(),
             "mean_width_mm": width[:, mask].mean(),
             "winkler_mm": winkler[:, mask].mean(),
+            "winkler_without_gross_mm": regular[:, mask].mean(),
             "crps_mm": scores[:, mask].mean(),
             "infinite_share": infinite[:, mask].mean(),
             "crossing_share": crossings[:, mask].mean(),

@@ -135,7 +135,7 @@ def _metrics(scores: pd.DataFrame, intervals: pd.DataFrame, level: float) -> dic
         for name in ("euclidean_mean_mm", "rmse_mm")
         for subset, value in scores[name].items()
     }
-    for name in ("coverage", "mean_width_mm", "winkler_mm"):
+    for name in ("coverage", "mean_width_mm", "winkler_mm", "winkler_without_gross_mm"):
         values |= {f"{subset}/{name}_{100 * level:g}": float(value) for subset, value in intervals[name].items()}
     return values
 

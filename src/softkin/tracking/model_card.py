@@ -8,9 +8,10 @@ from typing import Any
 import pandas as pd
 
 from softkin.core.escaping import markdown_text
+from softkin.core.metrics.interval import fewest_commands
 from softkin.core.samples import EXTRAPOLATION, TEST
 from softkin.data.audit.findings import counted
-from softkin.reporting.tables.numbers import number_text, share_text
+from softkin.reporting.tables.numbers import assessed_text, number_text, share_text
 from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.intervals.spec import MARGINAL
 
@@ -72,7 +73,8 @@ def model_card(
     for subset in (TEST, EXTRAPOLATION):
         point, interval = scores.loc[subset], intervals.loc[subset]
         cells = [number_text(point[name]) for name in ("euclidean_mean_mm", "euclidean_p95_mm", "rmse_mm")]
-        cells += [share_text(interval["coverage"]), number_text(interval["mean_width_mm"])]
+        assessable = subset == TEST or interval["n_commands"] >= fewest_commands(level)
+        cells += [assessed_text(interval["coverage"], assessable), number_text(interval["mean_width_mm"])]
         lines.append(f"| {subset} | {' | '.join(cells)} |")
     guarantee = GUARANTEES[model.method.guarantee == MARGINAL].format(level=percent, n=len(model.known.truth))
     lines += ["", "## Guarantee", "", guarantee, EXTRAPOLATION_NOTES[bool(model.shells)], ""]

@@ -24,7 +24,7 @@ RUN = Run("gb", "paper")
 COLUMNS = {
     *("dataset", "subset", "model", "preset", "interval_method", "coordinate", "confidence_level", "coverage"),
     *("coverage_low", "coverage_high", "coverage_p_value", "mean_width_mm", "winkler_mm", "n_calibration", "n_rows"),
-    *("infinite_share", "crossing_share"),
+    *("infinite_share", "crossing_share", "n_commands", "n_gross_rows", "winkler_without_gross_mm"),
 }
 
 
@@ -93,6 +93,8 @@ def test_known_misses_are_scored(metrics: pd.DataFrame) -> None:
     scores = rows(metrics, interval_method="scp_mapie", subset="test", confidence_level=0.9)
     assert scores.loc["m1_x", "coverage"] == 0.5
     assert scores.loc["m1_x", "winkler_mm"] == pytest.approx(4 + 0.5 * 20 * 1)
+    assert (scores["winkler_without_gross_mm"] - scores["winkler_mm"]).abs().max() < 1e-9  # no row is gross
+    assert (set(scores["n_commands"]), set(scores["n_gross_rows"])) == ({40}, {0})
     assert scores.loc["m1_y", ["coverage", "winkler_mm"]].tolist() == pytest.approx([1.0, 4.0])
     assert scores.loc["mean", "coverage"] == pytest.approx((0.5 + 1 + 1) / 3)
     assert scores.loc["joint", "coverage"] == 0.5

@@ -54,6 +54,7 @@ def point_metrics() -> pd.DataFrame:
 def interval_metrics(method: str = "scp_spread") -> pd.DataFrame:
     """Averages over moving coordinates, at two levels."""
     scores = {"interval_method": method, "coordinate": "mean_informative", "mean_width_mm": 2.0, "winkler_mm": 3.0}
+    scores |= {"winkler_without_gross_mm": 2.5, "n_commands": 40}
     return pd.DataFrame(
         [
             scores_of(robot()) | scores | {"subset": subset, "confidence_level": level, "coverage": level + 0.02}

@@ -9,9 +9,9 @@ from softkin.uncertainty.calibrated_model import CalibratedModel
 from tests.unit.tracking.robots import DESCRIPTION, LEAK, interval_metrics, point_metrics, robot, with_shells
 
 
-def card(model: CalibratedModel | None = None, caution: str | None = None, **changed: Any) -> str:
+def card(model: CalibratedModel | None = None, caution: str | None = None, n_commands: int = 40, **changed: Any) -> str:
     description = DESCRIPTION | {"findings": [LEAK]} | changed
-    metrics = interval_metrics()
+    metrics = interval_metrics().assign(n_commands=n_commands)
     return model_card(
         model or robot(),
         registered="softkin-finger",
@@ -39,6 +39,12 @@ def test_it_says_errors_guarantee_data_and_use() -> None:
         '"confidence_level": 0.9',
     ):
         assert part in text
+
+
+def test_few_distinct_commands_in_extrapolation_are_not_assessable() -> None:
+    text = card(n_commands=28)
+    assert "| extrapolation | 0.250 | 0.500 | 0.125 | not assessable | 2.00 |" in text
+    assert "| test | 0.250 | 0.500 | 0.125 | 92.0 % | 2.00 |" in text
 
 
 def test_simulated_data_come_with_a_warning_before_anything_else() -> None:

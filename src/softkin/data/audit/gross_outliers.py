@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from sklearn.neighbors import NearestNeighbors
 
 from softkin.core.rows import (
@@ -24,8 +25,8 @@ from softkin.core.rows import (
     stacked_commands,
     stacked_positions,
 )
-from softkin.core.samples import TRAIN, Samples, informative_coordinates
-from softkin.core.smooth_fit import fit_smoothly
+from softkin.core.samples import TRAIN, Array, Samples, informative_coordinates
+from softkin.core.smooth_fit import SmoothFit, fit_smoothly
 from softkin.data.audit.findings import WARNING, CheckResult, counted, finding_of_rows
 
 FAR_SCALES, FAR_SHARE = 10.0, 0.01
@@ -40,36 +41,10 @@ def check(samples: Mapping[str, Samples], seed: int = 0) -> CheckResult:
     if not moving.any():
         return CheckResult((), {"not_measured": "no coordinate moves"})
     commands, positions = stacked_commands(samples), stacked_positions(samples, moving)
-    poses = row_groups(positions)
-    fit = fit_smoothly(commands, positions, first_of_each(poses), seed)
+    mask, fit, worst = far_off(commands, positions, command_scale(samples[TRAIN].commands), seed)
     numbers: dict[str, Any] = {"degree_of_fit": fit.degree, "rows_fitted": fit.n_fitted}
     if fit.degree == 0:
         return CheckResult((), numbers | {"not_measured": "too few distinct rows to fit a plane through"})
-    limit = np.maximum(FAR_SCALES * fit.scale, FAR_SHARE * fit.extent)
-    excess = np.empty(len(commands))
-    for part in chunks(len(commands)):
-        excess[part] = (np.abs(fit.residuals(commands[part], positions[part])) / limit).max(axis=1)
-    excess[shares_its_pose(poses, row_groups(commands))] = 0.0
-    candidates = np.flatnonzero(excess > 1)
-    candidates = candidates[np.argsort(-excess[candidates], kind="stable")[:MAX_CANDIDATES]]
-
-    mask = np.zeros(len(commands), dtype=bool)
-    worst = 0.0
-    if len(candidates):
-        scaled = commands / command_scale(samples[TRAIN].commands)
-        others = sampled_rows(len(commands), MAX_NEIGHBOUR_ROWS, seed)
-        tree = NearestNeighbors(n_neighbors=min(N_NEIGHBOURS, len(others))).fit(scaled[others])
-        neighbours = others[tree.kneighbors(scaled[candidates], return_distance=False)]
-        around = fit.residuals(commands[neighbours.ravel()], positions[neighbours.ravel()])
-        around = around.reshape(*neighbours.shape, -1)
-        middle = np.median(around, axis=1)
-        spread = 1.4826 * np.median(np.abs(around - middle[:, None]), axis=1)
-        residuals = fit.residuals(commands[candidates], positions[candidates])
-        misses = np.abs(residuals - middle)
-        limits = np.maximum(limit, fit.limits(commands[candidates], FAR_SCALES))
-        far = (np.abs(residuals) > limits) & (misses > np.maximum(limits, FAR_SCALES * spread))
-        mask[candidates[far.any(axis=1)]] = True
-        worst = float(misses[far].max(initial=0.0))
     marked = {subset: part.astype(bool) for subset, part in split_by_subset(mask, samples).items()}
     numbers |= {
         "rows": {subset: int(part.sum()) for subset, part in marked.items()},
@@ -88,3 +63,42 @@ def check(samples: Mapping[str, Samples], seed: int = 0) -> CheckResult:
         "check them before you trust it, and read the MAE and the 95th percentile.",
     )
     return CheckResult((finding,), numbers)
+
+
+def far_off(
+    commands: Array, positions: Array, scale: Array, seed: int = 0
+) -> tuple[NDArray[np.bool_], SmoothFit, float]:
+    """Mask (n_rows,) of the gross outliers among commands (n_rows, n_commands) and moving coordinates (n_rows,
+    n_coordinates) in mm, the fit that they are far from, and how far (mm) the worst one is off.
+
+    Neighbours are sought among commands in units of their `scale` (n_commands,). No row where the rows are too few to
+    fit a plane through: the fit has degree 0.
+    """
+    poses = row_groups(positions)
+    fit = fit_smoothly(commands, positions, first_of_each(poses), seed)
+    mask = np.zeros(len(commands), dtype=bool)
+    if fit.degree == 0:
+        return mask, fit, 0.0
+    limit = np.maximum(FAR_SCALES * fit.scale, FAR_SHARE * fit.extent)
+    excess = np.empty(len(commands))
+    for part in chunks(len(commands)):
+        excess[part] = (np.abs(fit.residuals(commands[part], positions[part])) / limit).max(axis=1)
+    excess[shares_its_pose(poses, row_groups(commands))] = 0.0
+    candidates = np.flatnonzero(excess > 1)
+    candidates = candidates[np.argsort(-excess[candidates], kind="stable")[:MAX_CANDIDATES]]
+    if not len(candidates):
+        return mask, fit, 0.0
+    scaled = commands / scale
+    others = sampled_rows(len(commands), MAX_NEIGHBOUR_ROWS, seed)
+    tree = NearestNeighbors(n_neighbors=min(N_NEIGHBOURS, len(others))).fit(scaled[others])
+    neighbours = others[tree.kneighbors(scaled[candidates], return_distance=False)]
+    around = fit.residuals(commands[neighbours.ravel()], positions[neighbours.ravel()])
+    around = around.reshape(*neighbours.shape, -1)
+    middle = np.median(around, axis=1)
+    spread = 1.4826 * np.median(np.abs(around - middle[:, None]), axis=1)
+    residuals = fit.residuals(commands[candidates], positions[candidates])
+    misses = np.abs(residuals - middle)
+    limits = np.maximum(limit, fit.limits(commands[candidates], FAR_SCALES))
+    far = (np.abs(residuals) > limits) & (misses > np.maximum(limits, FAR_SCALES * spread))
+    mask[candidates[far.any(axis=1)]] = True
+    return mask, fit, float(misses[far].max(initial=0.0))

@@ -8,7 +8,7 @@ from softkin.core.samples import EXTRAPOLATION, TEST
 from softkin.reporting.page.choices import Choices
 from softkin.reporting.page.grid import Cell, Column, Grid, filtered_columns, number, number_columns, share
 from softkin.reporting.page.marks import Marks
-from softkin.reporting.tables.numbers import number_text, share_text
+from softkin.reporting.tables.numbers import NOT_ASSESSABLE, band_text, number_text, share_text
 from softkin.reporting.titles import Titles
 
 #: What is compared with what.
@@ -91,19 +91,32 @@ def extrapolation_grid(metrics: pd.DataFrame, titles: Titles, level: float, mark
                 titles.methods[row.interval_method],
                 choices.of_interval(row.dataset, row.subset, row.model, row.preset, row.interval_method),
             ),
-            share(row.coverage),
+            *(share(row.coverage), share(row.worst_coverage), share(row.joint_coverage)),
             *map(number, (row.mean_width_mm, row.winkler_mm, row.winkler_ratio_to_oracle)),
+            Cell(band_text(row.ratio_low, row.ratio_high)),
+            number(row.ratio_without_gross),
+            Cell(str(row.n_commands) if row.assessable else f"{row.n_commands}: {NOT_ASSESSABLE}"),
             *map(Cell, (row.guarantee, row.labels_used, row.refused if isinstance(row.refused, str) else "")),
         ]
         for row in metrics[metrics["confidence_level"] == level].itertuples()
     ]
     sentence = (
         f"The {share_text(level, 0)} intervals around a few models, means over moving coordinates. Each stands beside "
-        "an oracle that is calibrated on the very rows it is scored on: a ratio of 1 is as good as an interval of "
-        "constant width can be. Labels are the positions of extrapolation rows that a method has looked at."
+        "an oracle that is calibrated on the very rows it is scored on and grows with the distance beyond train: a "
+        "ratio of 1 is as good as such an interval can be. The band of a ratio holds it in 95 % of draws of the "
+        "distinct commands; where these are too few to tell a coverage, it is not assessable. Labels are the positions "
+        "of extrapolation rows that a method has looked at. The matched outer shell looks at the farthest new command "
+        "before any interval is made, though at no position."
     )
     columns = [*filtered_columns("Robot"), SUBSET, *filtered_columns("Model", "Preset", "Method")]
-    columns += number_columns("Coverage", "Mean width (mm)", "Winkler (mm)", "Ratio to the oracle's")
-    columns += [Column("Guarantee"), Column("Labels used"), Column("Refused", is_wide=True)]
+    columns += number_columns("Coverage", "Worst coordinate", "All at once", "Mean width (mm)", "Winkler (mm)")
+    columns += [*number_columns("Ratio to the oracle's"), Column("Its band")]
+    columns += [
+        *number_columns("Without gross errors"),
+        Column("Distinct commands"),
+        Column("Guarantee"),
+        Column("Labels used"),
+        Column("Refused", is_wide=True),
+    ]
     file = "tables/extrapolation_intervals.csv"
     return Grid("extrapolation", "Intervals in extrapolation", sentence, columns, rows, file)

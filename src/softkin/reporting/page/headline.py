@@ -13,7 +13,7 @@ from softkin.reporting.page.choices import DEPLOYED, marks_of_candidate
 from softkin.reporting.page.interval_rows import interval_rows
 from softkin.reporting.page.marks import Mark, Marks
 from softkin.reporting.tables.interval_choice import deployed_intervals, why_another_is_deployed
-from softkin.reporting.tables.numbers import length_text, number_text, share_text
+from softkin.reporting.tables.numbers import assessed_text, length_text, number_text, share_text
 from softkin.reporting.titles import Titles
 from softkin.training.selection import deployed
 
@@ -92,6 +92,12 @@ def _errors(scores: pd.DataFrame, dataset: str, selected: pd.Series, titles: Tit
     return Errors(model, (DEPLOYED,), length_text(test["euclidean_mean_mm"]), facts, remark)
 
 
+def _beyond(best: pd.Series) -> str:
+    """The coverage of an interval in extrapolation, or why there is none."""
+    text = assessed_text(best["extrapolation_coverage"], best["extrapolation_assessable"])
+    return text if best["extrapolation_assessable"] else f"{text}: {best['extrapolation_commands']} distinct commands"
+
+
 def _interval(best: pd.Series, scores: pd.DataFrame, titles: Titles, reason: str) -> Interval:
     key = ["dataset", "model", "preset", "interval_method", "confidence_level"]
     by_subset = scores[(scores[key] == best[key].to_numpy()).all(axis=1)].set_index("subset")
@@ -100,7 +106,7 @@ def _interval(best: pd.Series, scores: pd.DataFrame, titles: Titles, reason: str
         (f"mean width of a {level} interval", length_text(best["test_mean_width_mm"])),
         ("coverage, test", share_text(best["test_coverage"])),
         ("coordinates covered as guaranteed", str(by_subset.loc[TEST, "as_guaranteed"])),
-        ("coverage, extrapolation (no guarantee)", share_text(best["extrapolation_coverage"])),
+        ("coverage, extrapolation (no guarantee)", _beyond(best)),
         ("mean width, extrapolation", length_text(best["extrapolation_mean_width_mm"])),
     ]
     method = f"{titles.methods[best['interval_method']]} around {titles.run(best['model'], best['preset'])}"

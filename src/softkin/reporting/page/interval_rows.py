@@ -7,6 +7,7 @@ import pandas as pd
 from softkin.reporting.tables.numbers import NOTHING
 from softkin.uncertainty.intervals.spec import MARGINAL
 
+SCORES = ["coverage", "mean_width_mm", "winkler_mm", "winkler_without_gross_mm", "guarantee"]
 RUN = ["dataset", "subset", "model", "preset", "interval_method", "confidence_level"]
 
 
@@ -15,7 +16,7 @@ def interval_rows(metrics: pd.DataFrame) -> pd.DataFrame:
     size, the guarantee, and `as_guaranteed`: how many coordinates, or whether all at once, keep it.
     """
     keyed = metrics.set_index(RUN)
-    mean = keyed[keyed["coordinate"] == "mean_informative"][["coverage", "mean_width_mm", "winkler_mm", "guarantee"]]
+    mean = keyed[keyed["coordinate"] == "mean_informative"][SCORES]
     joint = keyed[keyed["coordinate"] == "joint"]
     wide = joint[["coverage", "size_mm"]].rename(columns={"coverage": "joint_coverage"}).join(mean)
     wide["guarantee"] = wide["guarantee"].fillna(joint["guarantee"])

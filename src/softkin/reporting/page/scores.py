@@ -10,7 +10,7 @@ from softkin.reporting.page.grid import Cell, Column, Grid, filtered_columns, nu
 from softkin.reporting.page.interval_rows import interval_rows
 from softkin.reporting.page.marks import Marks
 from softkin.reporting.tables.interval_choice import why_another_is_deployed
-from softkin.reporting.tables.numbers import share_text
+from softkin.reporting.tables.numbers import assessed_text, share_text
 from softkin.reporting.titles import Titles
 
 SUBSET = Column("Rows", filtered=True, preset=TEST)
@@ -60,7 +60,7 @@ def interval_grid(metrics: pd.DataFrame, titles: Titles, level: float, marks: Ma
             ),
             *map(Cell, (titles.models[row.model], row.preset, share_text(row.confidence_level, 0))),
             *(share(row.coverage), Cell(row.as_guaranteed), share(row.joint_coverage)),
-            *map(number, (row.mean_width_mm, row.winkler_mm, row.size_mm)),
+            *map(number, (row.mean_width_mm, row.winkler_mm, row.winkler_without_gross_mm, row.size_mm)),
             Cell(row.guarantee),
         ]
         for row in interval_rows(metrics).itertuples()
@@ -68,13 +68,13 @@ def interval_grid(metrics: pd.DataFrame, titles: Titles, level: float, marks: Ma
     sentence = (
         "How often the interval around a predicted coordinate holds the true one (coverage), how many coordinates are "
         "covered as guaranteed, how often all are at once (joint coverage), and how wide the intervals are. A good "
-        "method has a low Winkler score."
+        "method has a low Winkler score; beside it that without the gross errors that the audit names."
     )
     columns = [*filtered_columns("Robot"), SUBSET, *filtered_columns("Method", "Model", "Preset")]
     columns += [Column("Level", filtered=True, preset=share_text(level, 0)), *number_columns("Coverage")]
     columns += [
         Column("As guaranteed"),
-        *number_columns("Joint coverage", "Mean width (mm)", "Winkler (mm)", "Size (mm)"),
+        *number_columns("Joint coverage", "Mean width (mm)", "Winkler (mm)", "Without gross errors (mm)", "Size (mm)"),
     ]
     columns += filtered_columns("Guarantee")
     return Grid("intervals", "Intervals of every method", sentence, columns, rows, "tables/interval_metrics.csv")
@@ -89,9 +89,10 @@ def choice_grid(choice: pd.DataFrame, titles: Titles, marks: Marks) -> Grid:
             Cell(titles.run(row.model, row.preset)),
             number(row.cv_winkler_mm),
             share(row.test_coverage),
-            *map(number, (row.test_mean_width_mm, row.test_winkler_mm, row.winkler_ratio_to_paper)),
+            *map(number, (row.test_mean_width_mm, row.test_winkler_mm, row.test_winkler_without_gross_mm)),
+            *map(number, (row.winkler_ratio_to_paper, row.winkler_ratio_to_paper_without_gross)),
             Cell(titles.methods[row.outside]),
-            share(row.extrapolation_coverage),
+            Cell(assessed_text(row.extrapolation_coverage, row.extrapolation_assessable)),
         ]
         for row in choice.itertuples()
     ]
@@ -99,7 +100,8 @@ def choice_grid(choice: pd.DataFrame, titles: Titles, marks: Marks) -> Grid:
         f"The {share_text(choice['confidence_level'].iloc[0], 0)} intervals that each robot could have. The chosen one "
         "has the lowest Winkler score when cross-validated on validation rows, the deployed one is the best around the "
         "deployed model. Their scores on test are in mm and as a ratio to the paper's recipe. In extrapolation, where "
-        "nothing is guaranteed, another method may take over."
+        "nothing is guaranteed, another method may take over; a coverage there is not assessable where distinct "
+        "commands are too few to tell it."
     )
     columns = [
         *filtered_columns("Robot"),
@@ -107,7 +109,8 @@ def choice_grid(choice: pd.DataFrame, titles: Titles, marks: Marks) -> Grid:
         Column("Around"),
         *number_columns("Winkler, cross-validated (mm)"),
     ]
-    columns += number_columns("Coverage, test", "Mean width, test (mm)", "Winkler, test (mm)", "Ratio to the paper's")
+    columns += number_columns("Coverage, test", "Mean width, test (mm)", "Winkler, test (mm)")
+    columns += number_columns("Without gross errors (mm)", "Ratio to the paper's", "Ratio without gross errors")
     columns += [Column("In extrapolation"), *number_columns("Coverage there")]
     reasons = [f"{dataset}: {why}" for dataset, why in why_another_is_deployed(choice, titles).items()]
     file = "tables/interval_choice.csv"

@@ -9,10 +9,11 @@ from typing import Any
 import pandas as pd
 
 from softkin.core.escaping import one_line
+from softkin.core.metrics.interval import fewest_commands
 from softkin.core.samples import EXTRAPOLATION, TEST
 from softkin.data.audit.findings import LEAK, NOTE
 from softkin.reporting.tables.interval_choice import chosen_intervals, deployed_intervals
-from softkin.reporting.tables.numbers import number_text, share_text
+from softkin.reporting.tables.numbers import NOT_ASSESSABLE, assessed_text, number_text, share_text
 from softkin.uncertainty.intervals.spec import AUTO
 
 WIDTH = 90
@@ -85,9 +86,22 @@ def _intervals(choice: pd.DataFrame, width: int) -> list[str]:
     lines.append(f"  {'dataset':<{width}}{columns}")
     for row in deployed.itertuples():
         run, size = f"{row.model} {row.preset}", number_text(row.test_mean_width_mm)
-        shares = f"{share_text(row.test_coverage):>9}{share_text(row.extrapolation_coverage):>15}"
+        beyond = assessed_text(row.extrapolation_coverage, row.extrapolation_assessable)
+        shares = f"{share_text(row.test_coverage):>9}{beyond:>15}"
         lines.append(f"  {row.dataset:<{width}}{run:<14}{row.interval_method:<14}{size:>13}{shares}")
-    return [*lines, "", *_claims(choice, deployed), *_not_deployed(choice), ""]
+    return [*lines, "", *_claims(choice, deployed), *_not_assessable(deployed), *_not_deployed(choice), ""]
+
+
+def _not_assessable(deployed: pd.DataFrame) -> list[str]:
+    """Lines on robots whose extrapolation has too few distinct commands to tell a coverage."""
+    lines = []
+    for row in deployed[~deployed["extrapolation_assessable"]].itertuples():
+        level, fewest = share_text(row.confidence_level, 0), fewest_commands(row.confidence_level)
+        lines += _wrapped(
+            f"  {row.dataset}: extrapolation has {row.extrapolation_commands} distinct commands, and {fewest} are the "
+            f"fewest that can tell a coverage of {level}: {NOT_ASSESSABLE}."
+        )
+    return lines
 
 
 def _claims(choice: pd.DataFrame, deployed: pd.DataFrame) -> list[str]:

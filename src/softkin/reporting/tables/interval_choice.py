@@ -6,19 +6,22 @@ from collections.abc import Mapping
 
 import pandas as pd
 
+from softkin.core.metrics.interval import fewest_commands
 from softkin.core.samples import EXTRAPOLATION, TEST
 from softkin.models.spec import PAPERS_RUN
 from softkin.reporting.titles import Titles
 
 #: What the paper puts around its model.
 PAPERS_METHOD = "scp_mapie"
-SCORES = ("coverage", "mean_width_mm", "winkler_mm")
+SCORES = ("coverage", "mean_width_mm", "winkler_mm", "winkler_without_gross_mm")
+RATIO = "winkler_ratio_to_paper"
 
 
 def interval_choice(candidates: Mapping[str, pd.DataFrame], metrics: pd.DataFrame) -> pd.DataFrame:
     """Candidates of every dataset, best first by `cv_winkler_mm`, with their scores (mean over moving coordinates) on
-    test and, by the method that each has `outside`, on extrapolation; and the ratio of their Winkler score on test to
-    that of the paper's recipe, where it was run.
+    test and, by the method that each has `outside`, on extrapolation; the ratio of their Winkler score on test to that
+    of the paper's recipe, where it was run; both also without gross errors. `extrapolation_assessable` says whether the
+    `extrapolation_commands`, how many distinct ones there are, can tell a coverage.
     """
     mean = metrics[metrics["coordinate"] == "mean_informative"]
     key = ["dataset", "model", "preset", "interval_method", "confidence_level"]
@@ -26,14 +29,18 @@ def interval_choice(candidates: Mapping[str, pd.DataFrame], metrics: pd.DataFram
         mean[mean["subset"] == subset].set_index(key)[list(SCORES)].add_prefix(f"{subset}_")
         for subset in (TEST, EXTRAPOLATION)
     )
+    n_commands = mean[mean["subset"] == EXTRAPOLATION].groupby("dataset")["n_commands"].first()
     frames = []
     for dataset, frame in candidates.items():
         scored = frame.assign(dataset=dataset).join(test, on=key)
         scored = scored.join(extrapolation, on=["outside" if name == "interval_method" else name for name in key])
         level = float(scored["confidence_level"].iloc[0])
         papers = (dataset, *PAPERS_RUN, PAPERS_METHOD, level)
-        reference = float(test.loc[papers, "test_winkler_mm"]) if papers in test.index else float("nan")
-        scored["winkler_ratio_to_paper"] = scored["test_winkler_mm"] / reference
+        for ratio, score in ((RATIO, "test_winkler_mm"), (f"{RATIO}_without_gross", "test_winkler_without_gross_mm")):
+            reference = float(test.loc[papers, score]) if papers in test.index else float("nan")
+            scored[ratio] = scored[score] / reference
+        scored["extrapolation_commands"] = int(n_commands[dataset])
+        scored["extrapolation_assessable"] = int(n_commands[dataset]) >= fewest_commands(level)
         frames.append(scored[["dataset", *(name for name in scored if name != "dataset")]])
     return pd.concat(frames, ignore_index=True)
 

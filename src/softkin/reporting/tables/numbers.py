@@ -6,6 +6,8 @@ import math
 
 #: Stands where there is no number.
 NOTHING = "–"
+#: Stands where there are too few distinct commands to tell a coverage.
+NOT_ASSESSABLE = "not assessable"
 #: A number below this is given as a bound.
 SMALLEST = 1e-9
 #: mm.
@@ -32,6 +34,16 @@ def number_text(value: float | None) -> str:
 def share_text(value: float | None, decimals: int = 1) -> str:
     """A share in percent: '91.4 %'."""
     return NOTHING if value is None or math.isnan(value) else f"{100 * value:.{decimals}f} %"
+
+
+def assessed_text(coverage: float, assessable: bool) -> str:
+    """A coverage in percent, or that there are too few distinct commands to tell one."""
+    return share_text(coverage) if assessable else NOT_ASSESSABLE
+
+
+def band_text(low: float, high: float) -> str:
+    """The ends of a band: '1.31 to 1.44'."""
+    return NOTHING if math.isnan(low) or math.isnan(high) else f"{number_text(low)} to {number_text(high)}"
 
 
 def length_text(value: float) -> str:

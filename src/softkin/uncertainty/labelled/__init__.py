@@ -11,6 +11,7 @@ from softkin.uncertainty.labelled.spec import LabelledMethod
 
 LABELLED_METHODS: dict[str, LabelledMethod] = {
     "oracle": oracle.METHOD,
+    "oracle_constant": oracle.CONSTANT,
     "few_labels": few_labels.METHOD,
     "few_labels_distance": few_labels.BY_DISTANCE,
     "adaptive": adaptive.METHOD,

@@ -13,8 +13,10 @@ from softkin.core.metrics.interval import (
     coverage_band,
     coverage_p_value,
     covered,
+    fewest_commands,
     geometric_size,
     holm,
+    typical_winkler,
     widths,
     winkler_scores,
     worst_slab,
@@ -124,3 +126,17 @@ def test_the_worst_slab_is_not_biased_where_coverage_is_everywhere_the_same() ->
         commands, is_covered = rng.standard_normal((400, 3)), rng.random(400) < 0.9
         shares.append(is_covered[worst_slab(commands, is_covered.astype(float), seed, n_directions=50)].mean())
     assert np.mean(shares) == pytest.approx(0.9, abs=0.03)
+
+
+def test_the_typical_winkler_score_is_a_geometric_mean() -> None:
+    assert typical_winkler(np.array([0.5, 2.0, 8.0])) == pytest.approx(2.0)
+    assert np.isinf(typical_winkler(np.array([1.0, np.inf])))
+    assert typical_winkler(np.zeros(3)) == pytest.approx(1e-12)
+
+
+def test_no_fewer_commands_can_tell_a_coverage() -> None:
+    """All of n covered excludes a coverage below the level at 5 % from n on."""
+    for level in (0.8, 0.9, 0.95):
+        n = fewest_commands(level)
+        lowest = [clopper_pearson(count, count, 0.9)[0] for count in (n - 1, n)]
+        assert lowest[0] < level <= lowest[1]

@@ -66,6 +66,7 @@ def interval_metrics() -> pd.DataFrame:
             rows.append(
                 key
                 | {"coordinate": coordinate, "coverage": coverage, "mean_width_mm": 2.0, "winkler_mm": 3.0}
+                | {"winkler_without_gross_mm": 2.5, "n_commands": 40}
                 | {"coverage_p_value_holm": holm}
                 | {"guarantee": marginal, "coverage_low": band[0], "coverage_high": band[1], "size_mm": np.nan}
             )
@@ -80,6 +81,8 @@ def interval_choice() -> pd.DataFrame:
     scores = {"confidence_level": 0.9, "cv_winkler_mm": 1.0, "test_coverage": 0.9, "test_mean_width_mm": 2e-7}
     scores |= {"test_winkler_mm": 3.0, "winkler_ratio_to_paper": np.nan}
     scores |= {"extrapolation_coverage": 0.8, "extrapolation_mean_width_mm": 0.5}
+    scores |= {"test_winkler_without_gross_mm": 2.5, "winkler_ratio_to_paper_without_gross": np.nan}
+    scores |= {"extrapolation_commands": 40, "extrapolation_assessable": True}
     rows = []
     for dataset in ROBOTS:
         candidates = [("gb", "cqr")] * (dataset == "finger") + [("gp", "cps"), ("gp", "scp_mapie")]
@@ -125,6 +128,8 @@ def extrapolation_intervals() -> pd.DataFrame:
     rows = [{"dataset": d, "model": "gp", "preset": "tuned", "subset": s} for d in ROBOTS for s in SCORED]
     table = pd.DataFrame(rows).assign(interval_method="auto", confidence_level=0.9, coverage=0.91, mean_width_mm=2.0)
     table = table.assign(winkler_mm=3.0, winkler_ratio_to_oracle=1.25, guarantee="no guarantee", labels_used="none")
+    table = table.assign(worst_coverage=0.85, joint_coverage=0.7, ratio_low=1.2, ratio_high=1.3, n_commands=40)
+    table = table.assign(ratio_without_gross=1.22, assessable=True)
     return table.assign(refused=["", "too few rows"] * len(ROBOTS))
 
 

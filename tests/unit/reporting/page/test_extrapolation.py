@@ -38,7 +38,19 @@ def test_an_interval_stands_beside_the_oracle_and_a_refusal_says_why() -> None:
     grid = extrapolation_grid(pd.concat([table, other]), TITLES, 0.9, NO_MARKS, CHOICES)
     assert len(grid.rows) == len(table)
     assert texts(grid.rows[1])[1:] == [
-        *("extrapolation", "Gaussian process", "tuned", "Everywhere", "91.0 %", "2.00", "3.00", "1.25"),
+        *(
+            "extrapolation",
+            "Gaussian process",
+            "tuned",
+            "Everywhere",
+            "91.0 %",
+            "85.0 %",
+            "70.0 %",
+            "2.00",
+            "3.00",
+            "1.25",
+        ),
+        *("1.20 to 1.30", "1.22", "40"),
         *("no guarantee", "none", "too few rows"),
     ]
 

@@ -53,6 +53,13 @@ def test_without_a_search_no_model_is_chosen() -> None:
     assert card.interval.method == "System around Gaussian process, tuned"
 
 
+def test_few_distinct_commands_in_extrapolation_are_not_assessable() -> None:
+    table = frames()["interval_choice"].assign(extrapolation_commands=12, extrapolation_assessable=False)
+    name = "coverage, extrapolation (no guarantee)"
+    assert dict(cards(interval_choice=table)["arm"].interval.facts)[name] == "not assessable: 12 distinct commands"
+    assert dict(cards()["arm"].interval.facts)[name] == "80.0 %"
+
+
 def test_the_interval_is_the_deployed_one() -> None:
     interval = cards()["arm"].interval
     assert interval.method == "System around Gaussian process, tuned"

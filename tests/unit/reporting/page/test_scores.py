@@ -36,7 +36,7 @@ def test_one_row_per_interval_method_and_level() -> None:
         row for row in grid.rows if texts(row)[:6] == ["arm", "test", "System", "Gaussian process", "tuned", "90 %"]
     )
     assert kinds(row[2]) == ["chosen", "deployed"]
-    assert texts(row)[6:] == ["90.0 %", "1 of 2", "70.0 %", "2.00", "3.00", "infinite", "marginal"]
+    assert texts(row)[6:] == ["90.0 %", "1 of 2", "70.0 %", "2.00", "3.00", "2.50", "infinite", "marginal"]
 
 
 def test_of_two_robots_one_has_another_interval_deployed_than_chosen() -> None:
@@ -52,5 +52,5 @@ def test_of_two_robots_one_has_another_interval_deployed_than_chosen() -> None:
     (reason,) = grid.remarks
     assert reason.startswith("finger: Chosen is CQR (Gradient boosting, tuned)")
     assert texts(grid.rows[0])[2:] == [
-        *("Gaussian process, tuned", "1.00", "90.0 %", "0.000000200", "3.00", "–", "Everywhere", "80.0 %"),
+        *("Gaussian process, tuned", "1.00", "90.0 %", "0.000000200", "3.00", "2.50", "–", "–", "Everywhere", "80.0 %"),
     ]

@@ -22,6 +22,8 @@ CHOICE = pd.DataFrame(
             "test_mean_width_mm": width,
             "test_coverage": 0.912,
             "extrapolation_coverage": 0.95,
+            "extrapolation_commands": 40,
+            "extrapolation_assessable": True,
             "chosen": method == "cqr",
             "deployed": method == "scp_spread",
             "outside": "auto" if method == "scp_spread" else method,
@@ -65,6 +67,16 @@ def test_the_interval_of_the_calibrated_model_and_its_coverage() -> None:
     assert "arm gp tuned scp_spread 2.50 91.2 % 95.0 %" in text
     text = " ".join(headline(SELECTED, scores(0.5, 1.25), CHOICE.assign(deployed=False), []).split())
     assert "arm gp tuned cqr 7.00 91.2 % 95.0 %" in text
+
+
+def test_too_few_distinct_commands_are_not_assessable() -> None:
+    few = CHOICE.assign(extrapolation_commands=12, extrapolation_assessable=False)
+    text = headline(SELECTED, scores(0.5, 1.25), few, [])
+    assert max(map(len, text.splitlines())) <= 90
+    text = " ".join(text.split())
+    assert "arm gp tuned scp_spread 2.50 91.2 % not assessable" in text
+    assert "arm: extrapolation has 12 distinct commands, and 29 are the fewest that can tell a coverage of 90 %" in text
+    assert "not assessable" not in headline(SELECTED, scores(0.5, 1.25), CHOICE, [])
 
 
 def test_a_chosen_method_that_is_not_deployed_is_named() -> None:

@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from typing import Any
+
 import pandas as pd
 import pytest
 
@@ -39,8 +41,16 @@ def metrics() -> pd.DataFrame:
     rows = []
     for place, (model, preset, method) in enumerate([*runs, (*PAPERS_RUN, PAPERS_METHOD)], start=1):
         for subset, factor in (("test", 1.0), ("extrapolation", 10.0)):
-            key = {"dataset": "arm", "subset": subset, "model": model, "preset": preset, "interval_method": method}
+            key: dict[str, Any] = {
+                "dataset": "arm",
+                "subset": subset,
+                "model": model,
+                "preset": preset,
+                "interval_method": method,
+            }
             scores = {"coverage": place / 10, "mean_width_mm": factor * place, "winkler_mm": 2 * factor * place}
+            scores |= {"winkler_without_gross_mm": 2 * factor * (1 + place)}
+            key["n_commands"] = 12 if subset == "extrapolation" else 99
             for coordinate, level in (("m1_x", 0.9), ("mean_informative", 0.8), ("mean_informative", 0.9)):
                 is_shown = coordinate == "mean_informative" and level == 0.9
                 row = key | {"coordinate": coordinate, "confidence_level": level}
@@ -59,9 +69,18 @@ def test_candidates_get_their_scores_on_test_and_by_the_method_that_takes_over_o
 def test_the_winkler_score_is_compared_with_the_papers_recipe() -> None:
     table = interval_choice({"arm": candidates()}, metrics())
     assert table["winkler_ratio_to_paper"].tolist() == pytest.approx([0.2, 0.4, 0.6])
+    assert table["winkler_ratio_to_paper_without_gross"].tolist() == pytest.approx([4 / 12, 6 / 12, 8 / 12])
     without = metrics()
     without = without[without["preset"] != PAPERS_RUN.preset]
     assert interval_choice({"arm": candidates()}, without)["winkler_ratio_to_paper"].isna().all()
+
+
+def test_few_distinct_commands_in_extrapolation_are_not_assessable() -> None:
+    table = interval_choice({"arm": candidates()}, metrics())
+    assert set(table["extrapolation_commands"]) == {12}
+    assert not table["extrapolation_assessable"].any()
+    many = interval_choice({"arm": candidates()}, metrics().assign(n_commands=29))
+    assert many["extrapolation_assessable"].all()
 
 
 def choice() -> pd.DataFrame:
