@@ -1,16 +1,20 @@
-"""The view of a run: one screen on a terminal, plain lines in a pipe. Each test has a run of its own."""
+"""The view of a run: one screen on a terminal, plain lines in a pipe. Most tests have a run of their own."""
 
 from __future__ import annotations
 
+import fcntl
 import os
 import pty
 import re
+import signal
 import subprocess
+import termios
 from pathlib import Path
 
 import pytest
 
 from tests.workflow.conftest import House, copy_house
+from tests.workflow.test_kills import processes
 
 pytestmark = pytest.mark.timeout(600)
 TARGET = "results/finger/gb/tuned/fit.json"
@@ -55,25 +59,67 @@ def test_a_terminal_shows_one_quiet_screen(new_house: House) -> None:
     assert shown.split("\033[J")[-1].startswith("softkin test: 3 of 3 jobs in ")
 
 
-def test_a_pipe_gets_plain_lines_and_the_next_run_an_estimate(new_house: House) -> None:
-    done = new_house.snakemake(TARGET)
+@pytest.fixture(scope="module")
+def piped(tmp_path_factory: pytest.TempPathFactory, mirror: Path) -> tuple[House, str]:
+    """A house after a run into a pipe, and what that wrote to standard error."""
+    folder = tmp_path_factory.mktemp("piped")
+    copy_house(folder / "house")
+    (folder / "work").mkdir()
+    house = House(folder / "house", folder / "work", mirror)
+    done = house.snakemake(TARGET)
     assert done.returncode == 0, done.stdout + done.stderr
-    assert "\033" not in done.stdout + done.stderr
-    lines = done.stderr.splitlines()
-    assert [line.split("] ")[1].split(":")[0] for line in lines if line.startswith("[") and " jobs · " in line] == [
+    assert "\033" not in done.stdout
+    return house, done.stderr
+
+
+def test_a_pipe_gets_plain_lines(piped: tuple[House, str]) -> None:
+    written = piped[1]
+    assert "\033" not in written
+    lines = [line for line in written.splitlines() if line.startswith("[") and " jobs · " in line]
+    assert [line.split("] ")[1].split(":")[0] for line in lines] == [
         *("retrieve finger", "prepare finger", "fit model finger gb")
     ]
-    assert "fit finger gb: 4 of 4 trials, best" in done.stderr
-    assert "localrule" not in done.stderr
-    benchmark = new_house.work / "results" / "benchmarks" / "fit_model" / "finger" / "gb.tsv"
+    assert "fit finger gb: 4 of 4 trials, best" in written
+    assert "localrule" not in written
+
+
+def test_where_the_terminal_is_closed_the_next_run_finishes_and_has_an_estimate(piped: tuple[House, str]) -> None:
+    """The system sends SIGHUP to the run and to its jobs, here in the middle of a fit."""
+    house = piped[0]
+    predictions = house.work / "results" / "finger" / "gb" / "tuned" / "predictions.parquet"
+    before = predictions.read_bytes()
+    close_a_terminal(house, TARGET, "--forcerun", "prepare")
+    assert not predictions.exists()
+    assert list(processes(house.work)) == []
+    benchmark = house.work / "results" / "benchmarks" / "fit_model" / "finger" / "gb.tsv"
     benchmark.write_text("s\th:m:s\n600.0\t0:10:00\n")
-    again = new_house.snakemake(TARGET, "--forcerun", "prepare")
+    again = house.snakemake(TARGET, "--forcerun", "prepare")
+    assert again.returncode == 0, again.stdout + again.stderr
+    assert "removed the lock of a killed run" in again.stderr
+    assert predictions.read_bytes() == before
     ended = [line for line in again.stderr.splitlines() if "] prepare finger: " in line]
     assert len(ended) == 1
     assert re.match(r"\[\d\d:\d\d:\d\d · 1 of 2 jobs · ", ended[0])
     minutes = re.search(r" · about (\d+) min left\] ", ended[0])
     assert minutes
     assert 3 <= int(minutes[1]) <= 30  # ten, at the pace of a machine that others use, too
+
+
+def close_a_terminal(house: House, *options: str) -> None:
+    """Run on a terminal that is closed when a fit has begun."""
+    master, slave = pty.openpty()
+    run = subprocess.Popen(
+        house.command(*options), env=house.environment() | {"TERM": "xterm"}, cwd=house.root,
+        stdin=slave, stdout=slave, stderr=slave, start_new_session=True,
+        preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0),  # its own terminal, which ends it
+    )  # fmt: skip
+    os.close(slave)
+    log, written = house.work / "results" / "logs" / "fit_model" / "finger" / "gb.log", b""
+    log.unlink()
+    while not log.exists():
+        written += os.read(master, 65536)
+    os.close(master)
+    assert run.wait(60) == -signal.SIGHUP, written.decode()[-3000:]
 
 
 def test_a_run_on_an_executor_is_watched_without_cores(new_house: House) -> None:

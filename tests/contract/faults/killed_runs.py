@@ -14,7 +14,12 @@ FAULTS = [
     Fault("`kill -9` of Snakemake at a random moment", ENDS_EQUAL, KILLS),
     Fault("`kill -9` of a job", ENDS_EQUAL, KILLS),
     Fault("`kill -9` of Snakemake and its jobs at once", ENDS_EQUAL, KILLS),
-    Fault("the terminal is closed (SIGHUP)", ENDS_EQUAL, KILLS),
+    Fault("SIGHUP to Snakemake and its jobs at a random moment", ENDS_EQUAL, KILLS),
+    Fault(
+        "the terminal is closed in the middle of a fit",
+        "the run and its job end; the next one clears the lock and finishes, with the same predictions",
+        "workflow/test_watching.py::test_where_the_terminal_is_closed_the_next_run_finishes_and_has_an_estimate",
+    ),
     Fault("killed while data are retrieved", ENDS_EQUAL, KILLS),
     Fault("killed while runs are logged", f"{ENDS_EQUAL}, each run once", KILLS),
     Fault(
