@@ -15,6 +15,7 @@ from softkin.reporting.titles import Titles
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from softkin.uncertainty.labelled import LABELLED_METHODS
 from softkin.uncertainty.regions import REGION_METHODS
+from softkin.uncertainty.regions.spec import JOINT_INTERVALS, JOINT_TITLE
 from tools.run_tables import RunTables
 
 TITLES = Titles(
@@ -23,6 +24,7 @@ TITLES = Titles(
         **{name: method.title for name, method in INTERVAL_METHODS.items()},
         **{name: method.title for name, method in REGION_METHODS.items()},
         **{name: method.title for name, method in LABELLED_METHODS.items()},
+        JOINT_INTERVALS: JOINT_TITLE,
     },
 )
 

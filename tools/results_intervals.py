@@ -12,6 +12,7 @@ from softkin.models.spec import PAPERS_RUN
 from softkin.reporting.tables.numbers import number_text, share_text
 from softkin.uncertainty.labelled import LABELLED_METHODS
 from softkin.uncertainty.regions import REGION_METHODS
+from softkin.uncertainty.regions.spec import JOINT_INTERVALS
 from tools.finished_run import TITLES, FinishedRun, table
 from tools.run_tables import ONE_FOR_EVERYWHERE, RUN
 
@@ -98,7 +99,7 @@ def _joint(run: FinishedRun) -> str:
             *(share_text(row["coverage"]), number_text(row["size_mm"])),
         ]
         for row in run.tables.joint_coverage().to_dict("records")
-        if row["interval_method"] in (*REGION_METHODS, single.get(row["dataset"]))
+        if row["interval_method"] in (*REGION_METHODS, JOINT_INTERVALS, single.get(row["dataset"]))
     ]
     return table(["Robot", "Region", "Holds the whole pose", "Edge of a cube of its volume (mm)"], rows)
 

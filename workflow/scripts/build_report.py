@@ -10,10 +10,12 @@ from softkin.reporting.titles import Titles
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from softkin.uncertainty.labelled import LABELLED_METHODS
 from softkin.uncertainty.regions import REGION_METHODS
+from softkin.uncertainty.regions.spec import JOINT_INTERVALS, JOINT_TITLE
 
 files, params = snakemake.input, snakemake.params
 datasets = params.config["datasets"]
 methods = {**INTERVAL_METHODS, **REGION_METHODS, **LABELLED_METHODS}
+method_titles = {name: method.title for name, method in methods.items()} | {JOINT_INTERVALS: JOINT_TITLE}
 of_robots = zip(files.descriptions, files.data_cards, files.card_pages, files.figures, strict=True)
 with job(snakemake.log[0], "build report", snakemake.output, snakemake.input, snakemake.params):
     build_report(
@@ -24,7 +26,7 @@ with job(snakemake.log[0], "build report", snakemake.output, snakemake.input, sn
         config=params.config,
         titles=Titles(
             {name: spec.title for name, spec in MODELS.items()},
-            {name: method.title for name, method in methods.items()},
+            method_titles,
         ),
         citation=Path(snakemake.scriptdir).resolve().parents[1] / "CITATION.cff",
         report=snakemake.output[0],

@@ -1,6 +1,7 @@
 """Rule score: predictions and intervals of one dataset beside the truth."""
 
 from softkin.core.job import job
+from softkin.core.job_records import load_model
 from softkin.core.manifest import files_of, files_of_runs
 from softkin.core.runs import OUTER, Run
 from softkin.core.samples import SUBSETS
@@ -8,6 +9,7 @@ from softkin.data.table import read_subset
 from softkin.evaluation.conditional_coverage import conditional_coverage
 from softkin.evaluation.score_extrapolation import ExtrapolationMethods, score_extrapolation
 from softkin.evaluation.score_intervals import score_intervals
+from softkin.evaluation.score_joint import joint_rows
 from softkin.evaluation.score_points import score_points, score_spaces
 from softkin.evaluation.score_regions import score_alarms
 from softkin.training.selection import shell_runs
@@ -15,7 +17,7 @@ from softkin.uncertainty.choose import shown_runs
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from softkin.uncertainty.labelled import LABELLED_METHODS
 from softkin.uncertainty.regions import REGION_METHODS
-from softkin.uncertainty.stored_outputs import stored_outputs
+from softkin.uncertainty.stored_outputs import INTERVAL_SUBSETS, stored_outputs
 
 files, params, output, dataset = snakemake.input, snakemake.params, snakemake.output, snakemake.wildcards.dataset
 predictions = files_of_runs(files.models, params.runs, "predictions.parquet")
@@ -57,6 +59,11 @@ def coverage():
         regions={name: REGION_METHODS[name] for name in params.regions},
         outputs=outputs,
         output=output.intervals,
+        joint=joint_rows(
+            load_model(files.calibrated_model),
+            {subset: read_subset(files.table, subset) for subset in INTERVAL_SUBSETS},
+            outputs.levels,
+        ),
     )
     conditional_coverage(
         files.table,

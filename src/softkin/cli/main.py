@@ -5,6 +5,7 @@ Libraries are imported inside the commands: help and completion come at once.
 
 from __future__ import annotations
 
+import inspect
 import json
 import os
 import sys
@@ -63,26 +64,44 @@ def explained(command: Callable[..., int | None]) -> Callable[..., None]:
     return run
 
 
+def of_a_model(command: Callable[..., int | None]) -> Callable[..., int | None]:
+    """The command on a calibrated model with the model's file, its hash, and trust in place of its first parameter."""
+
+    def run(model: Model, sha256: Sha256 = None, trust: Trust = False, **options: Any) -> int | None:
+        from softkin.uncertainty.loading import load
+
+        return command(load(model, sha256=sha256, trust=trust), **options)
+
+    (_, *own), (file, *safety) = (
+        list(inspect.signature(of, eval_str=True).parameters.values()) for of in (command, run)
+    )
+    shown = [one.replace(kind=inspect.Parameter.KEYWORD_ONLY) for one in (file, *own, *safety[:2])]
+    run.__signature__ = inspect.Signature(shown)  # type: ignore[attr-defined]
+    run.__annotations__ = {one.name: one.annotation for one in shown}
+    run.__name__, run.__doc__ = command.__name__, command.__doc__
+    return run
+
+
 @app.command(epilog="Example: softkin predict results/finger/calibrated_model.joblib commands.csv --level 0.9")
 @explained
+@of_a_model
 def predict(
-    model: Model,
+    robot: Any,
     commands: Annotated[Path, typer.Argument(help="CSV or Parquet, columns by the robot's own names or u1, u2, ...")],
     level: Annotated[float, typer.Option(help="confidence level of the intervals, in (0, 1)")] = 0.9,
+    joint: Annotated[
+        bool, typer.Option("--joint", help="bounds that hold all coordinates of a pose at once, not each by itself")
+    ] = False,
     out: Annotated[Form, typer.Option(help="form of the answer")] = Form.CSV,
     to: Annotated[Path | None, typer.Option(help="file that it goes to; standard output where left out")] = None,
-    sha256: Sha256 = None,
-    trust: Trust = False,
     as_json: AsJson = False,
 ) -> None:
     """Positions in mm with intervals at commands; `outside` says where nothing is promised."""
     from softkin.cli.use_model import finite, predicted_table, read_rows
-    from softkin.uncertainty.loading import load
 
-    robot = load(model, sha256=sha256, trust=trust)
     rows, _, unread = read_rows(commands, robot.names, measured=False)
     _say_unread(unread)
-    table = predicted_table(robot, rows, level)
+    table = predicted_table(robot, rows, level, joint=joint)
     if out is Form.PARQUET and not as_json:
         table.to_parquet(to if to is not None else sys.stdout.buffer, index=False)
         return
@@ -99,21 +118,18 @@ def predict(
 
 @app.command(epilog="Example: softkin check results/finger/calibrated_model.joblib today.csv")
 @explained
+@of_a_model
 def check(
-    model: Model,
+    robot: Any,
     recording: Annotated[Path, typer.Argument(help="CSV or Parquet: commands and measured positions, as recorded")],
     rate: Annotated[float, typer.Option(help="how often an alarm may be false, however long one watches")] = 0.01,
-    sha256: Sha256 = None,
-    trust: Trust = False,
     as_json: AsJson = False,
 ) -> int:
     """Whether a robot is where its model says: p-values, the share outside, the alarm. Exit code 3: it is not."""
     from dataclasses import asdict
 
     from softkin.cli.use_model import check_recording, read_rows
-    from softkin.uncertainty.loading import load
 
-    robot = load(model, sha256=sha256, trust=trust)
     rows, positions, unread = read_rows(recording, robot.names, measured=True)
     _say_unread(unread)
     assert positions is not None

@@ -55,15 +55,18 @@ class Checked:
         ]
 
 
-def predicted_table(robot: CalibratedModel, commands: pd.DataFrame, level: float) -> pd.DataFrame:
-    """Positions, bounds at the level and `outside`, a row for each command; commands of a robot that remembers are
-    taken as sent one after the other from rest.
+def predicted_table(
+    robot: CalibratedModel, commands: pd.DataFrame, level: float, *, joint: bool = False
+) -> pd.DataFrame:
+    """Positions, bounds at the level and `outside`, a row for each command; with `joint` the bounds that hold the whole
+    pose. Commands of a robot that remembers are taken as sent one after the other from rest.
     """
     inputs = State(robot).inputs(commands.to_numpy(dtype=np.float64))
     positions = np.asarray(robot.predict(inputs))
-    bounds = np.asarray(robot.intervals(inputs, level, positions))
-    names = robot.names.coordinates
-    parts = {"": positions, "lower_": bounds[..., 0], "upper_": bounds[..., 1]}
+    asked = robot.joint_intervals(inputs, level).bounds if joint else robot.intervals(inputs, level, positions)
+    bounds = np.asarray(asked)
+    names, prefix = robot.names.coordinates, "joint_" if joint else ""
+    parts = {"": positions, f"{prefix}lower_": bounds[..., 0], f"{prefix}upper_": bounds[..., 1]}
     frame = pd.DataFrame({f"{side}{name}": part[:, i] for i, name in enumerate(names) for side, part in parts.items()})
     return frame.assign(outside=np.asarray(robot.is_outside(inputs)))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -63,6 +63,7 @@ def score_intervals(
     regions: Mapping[str, RegionMethod],
     outputs: StoredOutputs,
     output: str | Path,
+    joint: Iterable[Mapping[str, Any]] = (),
 ) -> None:
     """Write a row per subset, model, preset, method, coordinate and level.
 
@@ -76,6 +77,7 @@ def score_intervals(
         regions: joint regions by name, calibrated here; each has one row, `joint`.
         outputs: the stored outputs that the intervals were calibrated on.
         output: the metrics (CSV).
+        joint: the rows of the calibrated model's joint intervals, from `joint_rows`.
 
     Raises:
         DataError: a symmetric interval of constant width has a mean Winkler score below twice its mean absolute error,
@@ -107,6 +109,7 @@ def score_intervals(
                     key |= {"interval_method": name}
                     rows += [key | row for row in _rows(setting, bounds[place], crossings[place], scores[subset])]
     rows += [{"dataset": dataset, **row} for row in region_rows(outputs, positions, regions)]
+    rows += [{"dataset": dataset, **row} for row in joint]
     with replacing(output) as temporary:
         pd.DataFrame(rows).to_csv(temporary, index=False)
 

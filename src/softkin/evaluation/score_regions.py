@@ -77,31 +77,35 @@ def _coverages(
 ) -> Iterator[dict[str, Any]]:
     """A row per subset of one region at one level."""
     region = method.region(residuals[TRAIN], residuals[VALIDATION], markers, level)
-    n_calibration = len(residuals[VALIDATION])
-    rank = conformal_rank(n_calibration, level)
     for subset in INTERVAL_SUBSETS:
-        is_covered = region.covers(residuals[subset])
-        n_rows, n_covered = len(is_covered), int(is_covered.sum())
-        low, high = clopper_pearson(n_covered, n_rows)
-        p_value = float("nan")
-        if subset == TEST and method.is_exact and rank is not None:
-            low, high = coverage_band(n_rows, n_calibration, rank)
-            p_value = coverage_p_value(n_covered, n_rows, n_calibration, rank)
-        yield {
-            "subset": subset,
-            "confidence_level": level,
-            "n_calibration": n_calibration,
-            "n_rows": n_rows,
-            "coordinate": "joint",
-            "coverage": n_covered / n_rows,
-            "infinite_share": float(np.isinf(region.size_mm)),
-            "crossing_share": 0.0,
-            "guarantee": NO_GUARANTEE if subset != TEST else JOINT if method.is_exact else AT_LEAST,
-            "coverage_low": low,
-            "coverage_high": high,
-            "coverage_p_value": p_value,
-            "size_mm": region.size_mm,
-        }
+        row = coverage_row(subset, level, region.covers(residuals[subset]), len(residuals[VALIDATION]), method.is_exact)
+        yield row | {"infinite_share": float(np.isinf(region.size_mm)), "size_mm": region.size_mm}
+
+
+def coverage_row(
+    subset: str, level: float, is_covered: NDArray[np.bool_], n_calibration: int, is_exact: bool
+) -> dict[str, Any]:
+    """The coverage of a joint region on the rows of a subset, beside its exact band where it has one there."""
+    n_rows, n_covered = len(is_covered), int(is_covered.sum())
+    rank = conformal_rank(n_calibration, level)
+    low, high = clopper_pearson(n_covered, n_rows)
+    p_value = float("nan")
+    if subset == TEST and is_exact and rank is not None:
+        low, high = coverage_band(n_rows, n_calibration, rank)
+        p_value = coverage_p_value(n_covered, n_rows, n_calibration, rank)
+    return {
+        "subset": subset,
+        "confidence_level": level,
+        "n_calibration": n_calibration,
+        "n_rows": n_rows,
+        "coordinate": "joint",
+        "coverage": n_covered / n_rows,
+        "crossing_share": 0.0,
+        "guarantee": NO_GUARANTEE if subset != TEST else JOINT if is_exact else AT_LEAST,
+        "coverage_low": low,
+        "coverage_high": high,
+        "coverage_p_value": p_value,
+    }
 
 
 def alarm_rates(

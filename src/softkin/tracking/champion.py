@@ -38,13 +38,14 @@ from softkin.tracking.saved_view import CHAMPIONS_TAG, champions_view
 from softkin.tracking.store import NOTE, Campaign, client_of, common_tags, experiment_of, read_description
 from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.intervals.spec import AUTO
+from softkin.uncertainty.regions.spec import JOINT_INTERVALS
 
 logger = logging.getLogger("softkin")
 
 KIND = "champion"
 #: The experiment that holds a run for the calibrated model of each dataset.
 EXPERIMENT = "champions"
-PARTS = ("y_pred", "lower", "upper")
+PARTS = ("y_pred", "lower", "upper", "joint_lower", "joint_upper")
 #: The packages that a calibrated model needs where it is loaded; softkin's own code is logged with it.
 REQUIREMENTS = ("mlflow", "numpy", "pandas", "scipy", "scikit-learn", "xgboost", "mapie", "crepes", "joblib", "pyarrow")
 #: Rows of `train` in the input example.
@@ -81,11 +82,7 @@ def log_champion(
     name = f"softkin-{described['dataset']}"
     key = {"model": model.spec.name, "preset": model.preset}
     scores = _rows(pd.read_csv(point), **key)
-    # A model with shells gives the intervals of this method; in-domain they are those of its own.
-    method = AUTO if model.shells else model.method.name
-    table = _rows(pd.read_csv(intervals), **key, interval_method=method, coordinate="mean_informative")
-    level = nearest_level(sorted(table["confidence_level"].unique()))
-    shown = table[table["confidence_level"] == level]
+    shown, level = _measured(pd.read_csv(intervals), model)
     card = model_card(
         model, registered=name, description=described, scores=scores, intervals=shown, level=level,
         caution=campaign.caution,
@@ -121,11 +118,22 @@ def _experiment(client: MlflowClient) -> str:
     return experiment
 
 
-def _rows(table: pd.DataFrame, **wanted: str) -> pd.DataFrame:
+def _rows(table: pd.DataFrame, **wanted: Any) -> pd.DataFrame:
     """The rows where columns have these values, by subset."""
     for column, value in wanted.items():
         table = table[table[column] == value]
     return table.set_index("subset")
+
+
+def _measured(table: pd.DataFrame, model: CalibratedModel) -> tuple[pd.DataFrame, float]:
+    """The scores of its intervals, and of its joint intervals, by subset; and the level that they are at."""
+    level = nearest_level(sorted(table["confidence_level"].unique()))
+    key = {"model": model.spec.name, "preset": model.preset, "confidence_level": level}
+    # A model with shells gives the intervals of this method; in-domain they are those of its own.
+    method = AUTO if model.shells else model.method.name
+    shown = _rows(table, **key, interval_method=method, coordinate="mean_informative")
+    joint = _rows(table, **key, interval_method=JOINT_INTERVALS)
+    return shown.assign(joint_coverage=joint["coverage"], joint_size_mm=joint["size_mm"]), level
 
 
 def _metrics(scores: pd.DataFrame, intervals: pd.DataFrame, level: float) -> dict[str, float]:
@@ -135,7 +143,8 @@ def _metrics(scores: pd.DataFrame, intervals: pd.DataFrame, level: float) -> dic
         for name in ("euclidean_mean_mm", "rmse_mm")
         for subset, value in scores[name].items()
     }
-    for name in ("coverage", "mean_width_mm", "winkler_mm", "winkler_without_gross_mm"):
+    of_intervals = ("coverage", "mean_width_mm", "winkler_mm", "winkler_without_gross_mm")
+    for name in (*of_intervals, "joint_coverage", "joint_size_mm"):
         values |= {f"{subset}/{name}_{100 * level:g}": float(value) for subset, value in intervals[name].items()}
     return values
 

@@ -23,6 +23,10 @@ GUARANTEES = {
     "rows of `validation` that calibrated it. That is coordinate by coordinate, not all at once.",
     False: "Intervals by this method have no guarantee.",
 }
+WHOLE_POSES = (
+    "A joint interval at {level} ({kind}) holds the whole pose, all moving coordinates at once, in at least {level} of "
+    "such cases."
+)
 IN_EXTRAPOLATION = (
     "In extrapolation, for commands unlike those of training, nothing is guaranteed, neither of positions nor of "
     "intervals."
@@ -53,7 +57,7 @@ def model_card(
         description: the dataset's description with the `findings` of its data card.
         scores: the model's rows of point_metrics.csv, by subset.
         intervals: the rows of its method in interval_metrics.csv, at `level`, averaged over moving coordinates, by
-            subset.
+            subset, with `joint_coverage` and `joint_size_mm` of its joint intervals.
         level: nominal level in (0, 1).
         caution: what the configuration says of its own numbers.
     """
@@ -67,17 +71,20 @@ def model_card(
         f"{model.spec.title} ({model.preset} preset): {commands} to the position of {markers}, with intervals by "
         f"{model.method.title}.",
         "",
-        f"| rows | mean marker error, mm | 95 % below, mm | RMSE, mm | {percent} intervals cover | mean width, mm |",
-        "| --- | --- | --- | --- | --- | --- |",
+        f"| rows | mean marker error, mm | 95 % below, mm | RMSE, mm | {percent} intervals cover | mean width, mm | "
+        "joint intervals hold |",
+        "| --- | --- | --- | --- | --- | --- | --- |",
     ]
     for subset in (TEST, EXTRAPOLATION):
         point, interval = scores.loc[subset], intervals.loc[subset]
         cells = [number_text(point[name]) for name in ("euclidean_mean_mm", "euclidean_p95_mm", "rmse_mm")]
         assessable = subset == TEST or interval["n_commands"] >= fewest_commands(level)
         cells += [assessed_text(interval["coverage"], assessable), number_text(interval["mean_width_mm"])]
+        cells.append(assessed_text(interval["joint_coverage"], assessable))
         lines.append(f"| {subset} | {' | '.join(cells)} |")
     guarantee = GUARANTEES[model.method.guarantee == MARGINAL].format(level=percent, n=len(model.known.truth))
-    lines += ["", "## Guarantee", "", guarantee, EXTRAPOLATION_NOTES[bool(model.shells)], ""]
+    whole = WHOLE_POSES.format(level=percent, kind=model.joint.shape.kind)
+    lines += ["", "## Guarantee", "", guarantee, whole, EXTRAPOLATION_NOTES[bool(model.shells)], ""]
     findings = description["findings"]
     lines += ["## Data", "", _rows(description), ""]
     told = [(finding["severity"], f"{finding['sentence']} {finding['consequence']}") for finding in findings]
@@ -102,7 +109,7 @@ def _use(registered: str, n_commands: int, level: float) -> list[str]:
         "import mlflow, pandas",
         f'robot = mlflow.pyfunc.load_model("models:/{registered}@champion")',
         f"commands = pandas.DataFrame({{{columns}}})",
-        "# in mm: y_pred_m1_x, ..., lower_m1_x, ..., upper_m1_x, ...",
+        "# in mm: y_pred_m1_x, ..., lower_m1_x, ..., upper_m1_x, ..., joint_lower_m1_x, ..., joint_upper_m1_x, ...",
         f'robot.predict(commands, params={{"confidence_level": {level:g}}})',
         "robot.unwrap_python_model().model  # the calibrated model: regions and p-values, too",
         "```",

@@ -21,9 +21,11 @@ from softkin.core.samples import coordinate_columns
 
 
 class ServedModel(PythonModel):
-    """Commands u1, u2, ... -> y_pred_m1_x, ..., lower_m1_x, ..., upper_m1_x, ... in mm, a row per command.
+    """Commands u1, u2, ... -> y_pred_m1_x, ..., lower_m1_x, ..., upper_m1_x, ..., joint_lower_m1_x, ...,
+    joint_upper_m1_x, ... in mm, a row per command.
 
-    The parameter `confidence_level` is that of the interval from lower to upper.
+    The parameter `confidence_level` is that of the interval from lower to upper, and of the joint interval, whose
+    bounds along the axes hold the whole pose.
     """
 
     def load_context(self, context: Any) -> None:
@@ -46,8 +48,11 @@ class ServedModel(PythonModel):
         """Positions and intervals in mm, a row per command."""
         commands = np.asarray(model_input, dtype=np.float64)
         positions = self.model.predict(commands)
-        intervals = self.model.intervals(commands, [(params or {})["confidence_level"]])[0]
+        level = (params or {})["confidence_level"]
+        intervals = self.model.intervals(commands, level, positions)
+        joint = self.model.joint_intervals(commands, level).bounds
         parts = {"y_pred": positions, "lower": intervals[..., 0], "upper": intervals[..., 1]}
+        parts |= {"joint_lower": joint[..., 0], "joint_upper": joint[..., 1]}
         names = coordinate_columns(positions.shape[1] // 3)
         return pd.DataFrame(
             np.hstack(list(parts.values())), columns=[f"{part}_{name}" for part in parts for name in names]

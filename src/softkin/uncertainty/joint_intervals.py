@@ -11,6 +11,7 @@ import pandas as pd
 from numpy.typing import NDArray
 from scipy.stats import norm, t
 
+from softkin.core.metrics.interval import geometric_size
 from softkin.core.samples import Array
 from softkin.uncertainty import calls
 from softkin.uncertainty.answers import bounds_frame, index_of, like
@@ -30,13 +31,15 @@ class JointIntervals:
     mm. `matrices` (n_levels, n_rows, n_markers, 3, 3) in mm2 are those of ellipsoids, a marker x within where
     (x - centre)' inverse(matrix) (x - centre) <= 1, with zeros for constant coordinates; None of a box. In a session
     never seen regions are boxes. Of one level given as a number there is no axis of levels. To a DataFrame, centre and
-    bounds are DataFrames as of `intervals`.
+    bounds are DataFrames as of `intervals`. `sizes_mm` (n_levels, n_rows) is the side of a cube of the same volume, in
+    all moving coordinates together.
     """
 
     kind: str
     centre: Array | pd.DataFrame
     bounds: Array | pd.DataFrame
     matrices: Array | None
+    sizes_mm: Array
     _asked: calls.Rows
     _levels: tuple[list[float], bool]
     _moving: NDArray[np.bool_]
@@ -113,6 +116,10 @@ class JointAnswers:
         bounds = np.stack([centre - sides, centre + sides], axis=-1)
         is_box = region.shape.matrix is None or zero is not None
         matrices = None if is_box else self._matrices(region.shape.matrix, size)
+        if is_box:
+            sizes_mm = geometric_size(2 * sides[..., region.moving])
+        else:
+            sizes_mm = region.shape.unit_size_mm * geometric_size(size)
         is_table = isinstance(commands, (pd.DataFrame, pd.Series))
         answer: Any = bounds[0] if is_one else bounds
         if is_table:
@@ -122,6 +129,7 @@ class JointAnswers:
             like(commands, centre, robot.names.coordinates),
             answer,
             matrices[0] if matrices is not None and is_one else matrices,
+            sizes_mm[0] if is_one else sizes_mm,
             commands if is_table else None,
             (levels, is_one),
             region.moving,

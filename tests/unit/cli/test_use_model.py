@@ -25,6 +25,13 @@ def test_a_table_of_predictions_is_what_the_model_says() -> None:
     np.testing.assert_array_equal(table["outside"], ROBOT.is_outside(ROWS.commands))
 
 
+def test_joint_bounds_hold_the_whole_pose_and_are_named_so() -> None:
+    table = predicted_table(ROBOT, COMMANDS, 0.8, joint=True)
+    assert list(table.columns)[:3] == ["m1_x", "joint_lower_m1_x", "joint_upper_m1_x"]
+    np.testing.assert_array_equal(table["joint_upper_m1_z"], ROBOT.joint_intervals(ROWS.commands, 0.8).bounds[:, 2, 1])
+    assert (table["joint_upper_m1_z"] >= predicted_table(ROBOT, COMMANDS, 0.8)["upper_m1_z"]).all()
+
+
 def test_a_robot_where_it_is_said_to_be_raises_no_alarm_and_one_elsewhere_does() -> None:
     well = check_recording(ROBOT, COMMANDS, POSITIONS, 0.01)
     assert (well.n_poses, well.alarm_pose) == (80, None)

@@ -52,12 +52,14 @@ def point_metrics() -> pd.DataFrame:
 
 
 def interval_metrics(method: str = "scp_spread") -> pd.DataFrame:
-    """Averages over moving coordinates, at two levels."""
+    """Averages over moving coordinates, and joint intervals, at two levels."""
     scores = {"interval_method": method, "coordinate": "mean_informative", "mean_width_mm": 2.0, "winkler_mm": 3.0}
     scores |= {"winkler_without_gross_mm": 2.5, "n_commands": 40}
+    joint = {"interval_method": "joint_intervals", "coordinate": "joint", "size_mm": 4.0}
     return pd.DataFrame(
         [
-            scores_of(robot()) | scores | {"subset": subset, "confidence_level": level, "coverage": level + 0.02}
+            scores_of(robot()) | of_method | {"subset": subset, "confidence_level": level, "coverage": level + more}
+            for of_method, more in ((scores, 0.02), (joint, 0.01))
             for subset in ("test", "extrapolation")
             for level in (0.8, 0.9)
         ]

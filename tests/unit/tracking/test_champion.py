@@ -50,11 +50,14 @@ def test_the_champion_predicts_what_the_calibrated_model_predicts(campaign: Camp
     commands = bending_arm(20, seed=9).commands
     for params, level in ((None, 0.9), ({"confidence_level": 0.8}, 0.8)):
         answer = served.predict(pd.DataFrame(commands[:, ::-1], columns=["u2", "u1"]), params=params)
-        assert list(answer) == [f"{part}_m1_{axis}" for part in ("y_pred", "lower", "upper") for axis in "xyz"]
+        parts = ("y_pred", "lower", "upper", "joint_lower", "joint_upper")
+        assert list(answer) == [f"{part}_m1_{axis}" for part in parts for axis in "xyz"]
         np.testing.assert_array_equal(answer.filter(like="y_pred"), expected.predict(commands))
         bounds = expected.intervals(commands, [level])[0]
-        np.testing.assert_array_equal(answer.filter(like="lower"), bounds[..., 0])
-        np.testing.assert_array_equal(answer.filter(like="upper"), bounds[..., 1])
+        joint = np.asarray(expected.joint_intervals(commands, level).bounds)
+        for prefix, wanted in (("", bounds), ("joint_", joint)):
+            np.testing.assert_array_equal(answer.filter(regex=f"^{prefix}lower"), wanted[..., 0])
+            np.testing.assert_array_equal(answer.filter(regex=f"^{prefix}upper"), wanted[..., 1])
     np.testing.assert_array_equal(served.unwrap_python_model().model.box(0.9), expected.box(0.9))
     with pytest.raises(MlflowException, match="missing inputs"):
         served.predict(pd.DataFrame({"u1": [0.0]}))
@@ -169,11 +172,14 @@ def test_a_model_with_shells_is_scored_by_the_intervals_that_it_gives(
 ) -> None:
     put_model(files["calibrated_model"], with_shells(robot()))
     everywhere = interval_metrics("auto").assign(coverage=0.75)
+    everywhere = everywhere[everywhere["coordinate"] != "joint"]
     pd.concat([interval_metrics(), everywhere]).to_csv(files["intervals"], index=False)
     log_champion(campaign, **files)
     client = client_of_store(campaign)
     run = client.get_run(client.get_model_version_by_alias(NAME, "champion").run_id)
     assert run.data.metrics["extrapolation/coverage_90"] == 0.75
+    assert run.data.metrics["test/joint_coverage_90"] == pytest.approx(0.91)
+    assert run.data.metrics["test/joint_size_mm_90"] == 4.0
     assert run.data.tags["interval_method"] == "scp_spread"
 
 

@@ -12,12 +12,14 @@ from tests.unit.tracking.robots import DESCRIPTION, LEAK, interval_metrics, poin
 def card(model: CalibratedModel | None = None, caution: str | None = None, n_commands: int = 40, **changed: Any) -> str:
     description = DESCRIPTION | {"findings": [LEAK]} | changed
     metrics = interval_metrics().assign(n_commands=n_commands)
+    metrics = metrics[metrics["confidence_level"] == 0.9].set_index("subset")
+    means, joint = (metrics[metrics["coordinate"] == name] for name in ("mean_informative", "joint"))
     return model_card(
         model or robot(),
         registered="softkin-finger",
         description=description,
         scores=point_metrics().set_index("subset"),
-        intervals=metrics[metrics["confidence_level"] == 0.9].set_index("subset"),
+        intervals=means.assign(joint_coverage=joint["coverage"], joint_size_mm=joint["size_mm"]),
         level=0.9,
         caution=caution,
     )
@@ -27,9 +29,11 @@ def test_it_says_errors_guarantee_data_and_use() -> None:
     text = card()
     assert text.startswith("# FINGER\n\nGaussian process (tuned preset): 2 commands to the position of 1 marker")
     for part in (
-        "| rows | mean marker error, mm | 95 % below, mm | RMSE, mm | 90 % intervals cover | mean width, mm |",
-        "| test | 0.250 | 0.500 | 0.125 | 92.0 % | 2.00 |",
-        "| extrapolation | 0.250 | 0.500 | 0.125 | 92.0 % | 2.00 |",
+        "| rows | mean marker error, mm | 95 % below, mm | RMSE, mm | 90 % intervals cover | mean width, mm | "
+        "joint intervals hold |",
+        "| test | 0.250 | 0.500 | 0.125 | 92.0 % | 2.00 | 91.0 % |",
+        "| extrapolation | 0.250 | 0.500 | 0.125 | 92.0 % | 2.00 | 91.0 % |",
+        f"A joint interval at 90 % ({robot().joint.shape.kind}) holds the whole pose",
         "in at least 90 % of cases",
         "the 60 rows of `validation`",
         "60 train, 60 validation, 60 test, 60 extrapolation rows; origin: published",
@@ -78,4 +82,5 @@ def test_intervals_made_for_extrapolation_are_explained_and_not_guaranteed(has_s
 def test_a_method_without_a_guarantee_has_none() -> None:
     text = card(robot(method="gaussian"))
     assert "Intervals by this method have no guarantee." in text
-    assert "in at least" not in text
+    assert "An interval at" not in text
+    assert text.count("in at least") == 1  # joint intervals keep theirs

@@ -56,7 +56,8 @@ def answer(served: ServedModel, level: float) -> pd.DataFrame:
 
 def test_positions_and_bounds_stand_in_named_columns(served: ServedModel) -> None:
     table = answer(served, 0.9)
-    assert list(table) == [f"{part}_m1_{axis}" for part in ("y_pred", "lower", "upper") for axis in "xyz"]
+    parts = ("y_pred", "lower", "upper", "joint_lower", "joint_upper")
+    assert list(table) == [f"{part}_m1_{axis}" for part in parts for axis in "xyz"]
     assert len(table) == len(COMMANDS)
 
 
@@ -65,8 +66,10 @@ def test_they_are_those_of_the_calibrated_model(served: ServedModel, level: floa
     table = answer(served, level)
     bounds = robot().intervals(COMMANDS, [level])[0]
     np.testing.assert_array_equal(table.filter(like="y_pred"), robot().predict(COMMANDS))
-    np.testing.assert_array_equal(table.filter(like="lower"), bounds[..., 0])
-    np.testing.assert_array_equal(table.filter(like="upper"), bounds[..., 1])
+    joint = np.asarray(robot().joint_intervals(COMMANDS, level).bounds)
+    for prefix, expected in (("", bounds), ("joint_", joint)):
+        np.testing.assert_array_equal(table.filter(regex=f"^{prefix}lower"), expected[..., 0])
+        np.testing.assert_array_equal(table.filter(regex=f"^{prefix}upper"), expected[..., 1])
 
 
 def test_a_higher_level_is_a_wider_interval(served: ServedModel) -> None:

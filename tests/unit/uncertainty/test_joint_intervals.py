@@ -175,12 +175,9 @@ def test_positions_of_other_rows_are_refused() -> None:
     robot, new = made("box")
     table = pd.DataFrame(new.commands, columns=["u1", "u2"])
     positions = pd.DataFrame(new.positions, columns=[f"m{m}_{axis}" for m in (1, 2) for axis in "xyz"])
-    for call in (
-        lambda: robot.joint_intervals(new.commands, 0.9).contains(new.positions[:3]),
-        lambda: robot.joint_intervals(table, 0.9).contains(positions[::-1]),
-    ):
+    for commands, other in ((new.commands, new.positions[:3]), (table, positions[::-1])):
         with pytest.raises(SoftkinError) as caught:
-            call()
+            robot.joint_intervals(commands, 0.9).contains(other)
         assert caught.value.where == "arm"
 
 

@@ -22,8 +22,10 @@ def widths(intervals: Array) -> Array:
 
 
 def geometric_size(width: Array) -> Array:
-    """Side (n_rows,) of the cube whose volume is that of the box with these widths (n_rows, n_coordinates); mm."""
-    return np.asarray(np.exp(np.log(np.maximum(width, np.finfo(float).tiny)).mean(axis=1)))
+    """Side (..., n_rows) of the cube whose volume is that of the box with these widths (..., n_rows, n_coordinates);
+    mm.
+    """
+    return np.asarray(np.exp(np.log(np.maximum(width, np.finfo(float).tiny)).mean(axis=-1)))
 
 
 def winkler_scores(true: Array, intervals: Array, confidence_level: float) -> Array:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import pandas as pd
@@ -13,6 +13,7 @@ from softkin.reporting.page.choices import DEPLOYED, marks_of_candidate
 from softkin.reporting.page.interval_rows import interval_rows
 from softkin.reporting.page.marks import Mark, Marks
 from softkin.reporting.tables.interval_choice import deployed_intervals, why_another_is_deployed
+from softkin.reporting.tables.joint_intervals import joint_scores
 from softkin.reporting.tables.numbers import assessed_text, length_text, number_text, share_text
 from softkin.reporting.titles import Titles
 from softkin.training.selection import deployed
@@ -64,6 +65,7 @@ def robot_cards(
     choice = frames["interval_choice"]
     scores, best = interval_rows(frames["interval_metrics"]), deployed_intervals(choice)
     reasons = why_another_is_deployed(choice, titles)
+    joint = joint_scores(frames["interval_metrics"], best)
     cards = []
     for dataset, description in descriptions.items():
         errors = None
@@ -71,6 +73,8 @@ def robot_cards(
             selected = deployed(frames["selection"]).set_index("dataset").loc[dataset]
             errors = _errors(frames["point_metrics"], dataset, selected, titles)
         interval = _interval(best.loc[dataset], scores, titles, reasons.get(dataset, ""))
+        if dataset in joint.index:
+            interval = replace(interval, facts=[*interval.facts, *_whole_poses(joint.loc[dataset])])
         cards.append(RobotCard(dataset, description["title"], errors, interval, marks.of_dataset(dataset)))
     return cards
 
@@ -111,3 +115,13 @@ def _interval(best: pd.Series, scores: pd.DataFrame, titles: Titles, reason: str
     ]
     method = f"{titles.methods[best['interval_method']]} around {titles.run(best['model'], best['preset'])}"
     return Interval(method, marks_of_candidate(best["chosen"], best["deployed"]), facts, reason)
+
+
+def _whole_poses(joint: pd.Series) -> Facts:
+    """What is said of joint intervals, beside how often single ones hold a whole pose."""
+    return [
+        ("whole poses within all intervals, test", share_text(joint["single_test"])),
+        (f"whole poses within joint intervals ({joint['shape']}), test", share_text(joint["test"])),
+        ("the same, extrapolation (no guarantee)", assessed_text(joint["extrapolation"], joint["assessable"])),
+        ("side of a cube of a joint interval's volume", length_text(joint["size_mm"])),
+    ]

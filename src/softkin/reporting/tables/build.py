@@ -60,7 +60,15 @@ def build_tables(tables: Tables, *, titles: Titles, folder: Path, caution: str |
     write_text(folder / "interval_tables.tex", ours.latex())
     selected = deployed(frames["selection"]) if "selection" in frames else None
     found = {card["dataset"]: card["findings"] for card in tables.cards}
-    text = headline(selected, frames["point_metrics"], frames["interval_choice"], sentences, found, caution)
+    text = headline(
+        selected,
+        frames["point_metrics"],
+        frames["interval_choice"],
+        sentences,
+        found,
+        caution,
+        frames["interval_metrics"],
+    )
     write_text(folder / "headline.txt", text)
 
 

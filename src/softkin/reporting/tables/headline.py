@@ -13,6 +13,7 @@ from softkin.core.metrics.interval import fewest_commands
 from softkin.core.samples import EXTRAPOLATION, TEST
 from softkin.data.audit.findings import LEAK, NOTE
 from softkin.reporting.tables.interval_choice import chosen_intervals, deployed_intervals
+from softkin.reporting.tables.joint_intervals import joint_scores
 from softkin.reporting.tables.numbers import NOT_ASSESSABLE, assessed_text, number_text, share_text
 from softkin.uncertainty.intervals.spec import AUTO
 
@@ -33,6 +34,7 @@ def headline(
     sentences: Sequence[str],
     findings: Mapping[str, Sequence[Mapping[str, Any]]] | None = None,
     caution: str | None = None,
+    metrics: pd.DataFrame | None = None,
 ) -> str:
     """Plain text of at most `WIDTH` columns.
 
@@ -43,6 +45,7 @@ def headline(
         sentences: how the paper's cells compare with ours.
         findings: of the audit of each dataset, as data_card.json has them; none by default.
         caution: what the configuration says of its own numbers.
+        metrics: as in interval_metrics.csv; None: nothing is said of whole poses.
     """
     width = 2 + max(18, *map(len, choice["dataset"]))
     lines = ["", "softkin: forward kinematics, mean error of a marker position (mm)", ""]
@@ -54,6 +57,8 @@ def headline(
     if selected is not None:
         lines += _errors(selected, point, width)
     lines += _intervals(choice, width)
+    if metrics is not None:
+        lines += _whole_poses(joint_scores(metrics, deployed_intervals(choice)), choice, width)
     lines += _findings(findings or {})
     lines += [f"  {sentence}" for sentence in sentences]
     return "\n".join([*lines, ""])
@@ -102,6 +107,22 @@ def _not_assessable(deployed: pd.DataFrame) -> list[str]:
             f"fewest that can tell a coverage of {level}: {NOT_ASSESSABLE}."
         )
     return lines
+
+
+def _whole_poses(scores: pd.DataFrame, choice: pd.DataFrame, width: int) -> list[str]:
+    """Lines on the joint intervals of each calibrated model: shape, size, and how often they hold a whole pose."""
+    if scores.empty:
+        return []
+    level = share_text(choice["confidence_level"].iloc[0], 0)
+    lines = [f"  {level} joint intervals of the calibrated models, which hold all moving coordinates at once", ""]
+    lines.append(f"  {'dataset':<{width}}{'shape':<14}{'':<14}{'size (mm)':>13}{'test':>9}{'extrapolation':>15}")
+    for row in scores.itertuples():
+        shares = f"{share_text(row.test):>9}{assessed_text(row.extrapolation, row.assessable):>15}"
+        lines.append(f"  {row.Index:<{width}}{row.shape:<14}{'':<14}{number_text(row.size_mm):>13}{shares}")
+    least, most = (share_text(share, 0) for share in (scores["single_test"].min(), scores["single_test"].max()))
+    held = least if least == most else f"{least} to {most}"
+    said = f"  Intervals of single coordinates hold a whole pose of test in {held} of cases."
+    return [*lines, "", *_wrapped(said), ""]
 
 
 def _claims(choice: pd.DataFrame, deployed: pd.DataFrame) -> list[str]:

@@ -12,6 +12,9 @@ from numpy.typing import NDArray
 from softkin.core.samples import Array
 from softkin.uncertainty.conformal import conformal_limit
 
+#: What the region of a calibrated model is called in tables, beside interval methods and regions.
+JOINT_INTERVALS, JOINT_TITLE = "joint_intervals", "Joint intervals, deployed"
+
 
 class Shape(Protocol):
     """A region around a predicted pose up to its size, known from `train` alone; of the moving coordinates, in mm."""

@@ -79,3 +79,14 @@ def test_where_another_interval_is_chosen_the_card_says_which_and_why() -> None:
     assert [mark.kind for mark in interval.marks] == ["deployed"]
     assert interval.reason.startswith("Chosen is CQR (Gradient boosting, tuned)")
     assert "quantile regressors of its own" in interval.reason
+
+
+def test_joint_intervals_stand_beside_how_often_single_ones_hold_a_whole_pose() -> None:
+    metrics = frames()["interval_metrics"]
+    joint = metrics[(metrics["interval_method"] == "joint_box") & (metrics["dataset"] == "arm")]
+    joint = joint.assign(interval_method="joint_intervals", shape="box", coverage=0.9, size_mm=2.0)
+    facts = dict(cards(interval_metrics=pd.concat([metrics, joint]))["arm"].interval.facts)
+    assert facts["whole poses within all intervals, test"] == "70.0 %"
+    assert facts["whole poses within joint intervals (box), test"] == "90.0 %"
+    assert facts["side of a cube of a joint interval's volume"] == "2.00 mm"
+    assert "whole poses within all intervals, test" not in dict(cards()["finger"].interval.facts)

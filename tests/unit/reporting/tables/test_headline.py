@@ -133,3 +133,19 @@ def test_tiny_errors_keep_the_columns_apart() -> None:
     (line,) = [line for line in lines if line.startswith("  arm") and "0.000000538" in line]
     assert line.split()[1:] == ["gp", "tuned", "0.000000538", "0.000000974", "0.00000161"]
     assert max(map(len, lines)) <= 90
+
+
+def test_whole_poses_have_lines_of_their_own() -> None:
+    rows = [
+        {"dataset": "arm", "model": "gp", "preset": "tuned", "interval_method": method, "subset": subset}
+        | {"confidence_level": 0.9, "coordinate": "joint", "coverage": coverage, "size_mm": 3.0, "shape": "ellipsoids"}
+        for method, subset, coverage in (
+            *(("joint_intervals", "test", 0.912), ("joint_intervals", "extrapolation", 0.83)),
+            *(("scp_spread", "test", 0.62), ("auto", "extrapolation", 0.7)),
+        )
+    ]
+    text = headline(SELECTED, scores(0.5, 1.25), CHOICE, [], metrics=pd.DataFrame(rows))
+    assert "arm ellipsoids 3.00 91.2 % 83.0 %" in " ".join(text.split())
+    assert "Intervals of single coordinates hold a whole pose of test in 62 % of cases." in text
+    assert max(map(len, text.splitlines())) <= 90
+    assert "whole poses" not in headline(SELECTED, scores(0.5, 1.25), CHOICE, [], metrics=pd.DataFrame(rows[2:]))
