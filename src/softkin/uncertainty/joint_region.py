@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,9 +11,13 @@ from sklearn.model_selection import KFold
 
 from softkin.core.samples import Array
 from softkin.uncertainty.calibration_data import Shell
-from softkin.uncertainty.regions import REGION_METHODS
-from softkin.uncertainty.regions.spec import Shape
+from softkin.uncertainty.regions import box, ellipsoids
+from softkin.uncertainty.regions.spec import Shape, of_shape
 
+#: From residuals on `train` and the marker of each coordinate to a shape.
+Maker = Callable[[Array, NDArray[np.intp]], Shape]
+#: The shapes that are compared; earlier ones win ties.
+SHAPES: tuple[Maker, ...] = (box.shape, ellipsoids.shape)
 #: The level and the folds of `train` at which shapes are compared.
 COMPARED_AT, N_FOLDS = 0.9, 5
 
@@ -67,14 +71,11 @@ def chosen_shape(train_residuals: Array, markers: NDArray[np.intp]) -> Shape:
         train_residuals: of the moving coordinates (n_train, n_moving) in mm.
         markers: marker (n_moving,) of each.
     """
-    methods = {name: method for name, method in REGION_METHODS.items() if method.shape is not None}
     folds = list(KFold(N_FOLDS, shuffle=True, random_state=0).split(train_residuals))
 
-    def log_size(name: str) -> float:
+    def log_size(shape: Maker) -> float:
         parts = ((train_residuals[most], train_residuals[rest]) for most, rest in folds)
-        sizes = [methods[name].region(*part, markers, COMPARED_AT).size_mm for part in parts]
+        sizes = [of_shape(shape(most, markers), rest, COMPARED_AT).size_mm for most, rest in parts]
         return float(np.log(np.maximum(sizes, np.finfo(float).tiny)).mean())
 
-    shape = methods[min(methods, key=log_size)].shape
-    assert shape is not None
-    return shape(train_residuals, markers)
+    return min(SHAPES, key=log_size)(train_residuals, markers)

@@ -41,4 +41,4 @@ def region(train_residuals: Array, residuals: Array, markers: NDArray[np.intp], 
     return of_shape(shape(train_residuals, markers), residuals, confidence_level)
 
 
-METHOD = RegionMethod("joint_box", "Box", is_exact=True, region=region, shape=shape)
+METHOD = RegionMethod("joint_box", "Box", is_exact=True, region=region)

@@ -89,4 +89,4 @@ def _cholesky(residuals: Array) -> Array:
     return np.asarray(np.linalg.cholesky(moments + RIDGE * mean * np.eye(len(moments))))
 
 
-METHOD = RegionMethod("joint_ellipsoids", "Ellipsoids", is_exact=True, region=region, shape=shape)
+METHOD = RegionMethod("joint_ellipsoids", "Ellipsoids", is_exact=True, region=region)

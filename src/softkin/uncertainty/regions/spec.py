@@ -63,14 +63,12 @@ class RegionMethod:
     `region(train_residuals, calibration_residuals, markers, confidence_level)`: residuals (n_rows, n_coordinates) in
     mm of the moving coordinates; `markers` (n_coordinates,) says which marker each belongs to. `is_exact`: its joint
     coverage has the beta-binomial distribution of a conformal rank; else it is at least the nominal level.
-    `shape(train_residuals, markers)`: what a calibrated model can hold; None: it cannot hold this one.
     """
 
     name: str
     title: str
     is_exact: bool
     region: Callable[[Array, Array, NDArray[np.intp], float], Region]
-    shape: Callable[[Array, NDArray[np.intp]], Shape] | None = None
 
 
 def of_shape(shape: Shape, residuals: Array, confidence_level: float) -> Region:
