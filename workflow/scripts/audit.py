@@ -2,7 +2,7 @@
 
 from softkin.core.files import read_json
 from softkin.core.job import job
-from softkin.data.audit.data_card import audit, left_out
+from softkin.data.audit.data_card import audit
 
 dataset = snakemake.wildcards.dataset
 with job(snakemake.log[0], f"audit {dataset}", snakemake.output, snakemake.input, snakemake.params):
@@ -13,6 +13,6 @@ with job(snakemake.log[0], f"audit {dataset}", snakemake.output, snakemake.input
         position_unit=snakemake.params.source["position_unit"],
         data_card=snakemake.output.data_card,
         readable=snakemake.output.readable,
-        without=left_out(read_json(snakemake.input.description)),
+        description=read_json(snakemake.input.description),
         base=snakemake.params.source.get("base"),
     )

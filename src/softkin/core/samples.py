@@ -68,6 +68,16 @@ def coordinate_columns(n_markers: int) -> list[str]:
     return [f"m{i + 1}_{axis}" for i in range(n_markers) for axis in "xyz"]
 
 
+def measured_coordinates(positions: Array) -> NDArray[np.bool_]:
+    """Mask (n_coordinates,) of the coordinates that averages are over: all, but of a planar robot two of each marker.
+
+    A planar robot's third coordinates are exactly 0 in every row: readers add them, and nobody measured them.
+    """
+    mask = np.ones(positions.shape[1], dtype=bool)
+    mask[2::3] = bool(positions[:, 2::3].any())
+    return mask
+
+
 def informative_coordinates(train_positions: Array) -> NDArray[np.bool_]:
     """Mask (n_coordinates,) of the coordinates that move on `train` (range above `CONSTANT_RANGE_MM`)."""
     return np.asarray(np.ptp(train_positions, axis=0) > CONSTANT_RANGE_MM)

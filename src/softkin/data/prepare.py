@@ -14,6 +14,7 @@ from softkin.core.errors import DataError, ResultError
 from softkin.core.files import file_sha256, write_json
 from softkin.core.job_records import recorded_sha256
 from softkin.core.samples import CONSTANT_RANGE_MM, TRAIN, Samples, coordinate_columns, informative_coordinates
+from softkin.data.marker_order import RELABELLED, relabelled
 from softkin.data.readers import OWN_COLUMNS, READERS
 from softkin.data.recordings import description as recording_description
 from softkin.data.recordings import with_order_table
@@ -68,6 +69,10 @@ def prepare(
         samples = with_order_table(samples, order_table, source)
     recorded = recording_description(samples)
     samples = {subset: _in_mm(rows, max_rows, source["position_unit"]) for subset, rows in samples.items()}
+    if source.get("relabel"):
+        samples, mended = relabelled(samples)
+        counts |= {RELABELLED: mended}
+        logger.info("relabelled: %s", ", ".join(f"{count} rows of {subset}" for subset, count in mended.items()))
     removed = None
     if clean is not None:
         samples, removed = clean(samples)
@@ -120,9 +125,9 @@ def _check_left(samples: Mapping[str, Samples], where: str) -> None:
         raise error.within(where) from error
 
 
-def _read(raw: str | Path, source: Mapping[str, Any], dataset: str) -> tuple[dict[str, Samples], dict[str, int]]:
+def _read(raw: str | Path, source: Mapping[str, Any], dataset: str) -> tuple[dict[str, Samples], dict[str, Any]]:
     """The samples of the file, and how many rows were left out by kind, where the entry asks for it."""
-    counts: dict[str, int] = {}
+    counts: dict[str, Any] = {}
     counting = {"counts": counts} if "missing" in source else {}
     return READERS[source["format"]](raw, dataset=dataset, source=source, **counting), counts
 

@@ -21,6 +21,7 @@ PUBLISHED_ONLY = (
     "paper_params",
     "notes",
     "clean",
+    "relabel",
     "order",
     "session",
 )

@@ -27,7 +27,7 @@ from softkin.core.metrics.interval import (
 )
 from softkin.core.rows import row_groups
 from softkin.core.runs import Run
-from softkin.core.samples import SUBSETS, TEST, Array, coordinate_columns, informative_coordinates
+from softkin.core.samples import SUBSETS, TEST, Array, coordinate_columns, informative_coordinates, measured_coordinates
 from softkin.data.audit.gross_rows import gross_rows
 from softkin.data.table import read_subset
 from softkin.evaluation.score_regions import region_rows
@@ -178,7 +178,7 @@ def _rows(setting: _Setting, bounds: Array, crossings: NDArray[np.bool_], scores
 
     for i, name in enumerate(coordinate_columns(n_coordinates // 3)):
         yield {**common, "coordinate": name, **averages(i), **bands[i], "coverage_p_value_holm": adjusted[i]}
-    for name, mask in (("mean", np.ones(n_coordinates, bool)), ("mean_informative", setting.informative)):
+    for name, mask in (("mean", measured_coordinates(setting.true)), ("mean_informative", setting.informative)):
         yield {**common, "coordinate": name, **averages(mask)}
     together = is_covered[:, setting.informative].all(axis=1)
     low, high = clopper_pearson(int(together.sum()), n_rows)

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from softkin.core.files import read_json, replacing
-from softkin.core.metrics.point import euclidean_errors, mae_mm, point_metrics, rmse_mm
+from softkin.core.metrics.point import euclidean_errors, paper_metrics, point_metrics
 from softkin.core.runs import Run
 from softkin.core.samples import EXTRAPOLATION, SUBSETS, TEST, TRAIN, coordinate_columns, informative_coordinates
 from softkin.data.table import read_subset
@@ -94,7 +94,8 @@ def score_spaces(
             for subset, true in truth.items():
                 columns = coordinate_columns(true.shape[1] // 3)
                 predicted = predictions.loc[predictions["subset"] == subset, columns].to_numpy(np.float64)
-                errors = {"rmse_mm": rmse_mm(true, predicted), "mae_mm": mae_mm(true, predicted)}
+                scores = paper_metrics(true, predicted)
+                errors = {name: scores[name] for name in ("rmse_mm", "mae_mm")}
                 rows.append(key | {"subset": subset} | errors)
     with replacing(output) as temporary:
         pd.DataFrame(rows, columns=SPACE_COLUMNS).to_csv(temporary, index=False)

@@ -8,6 +8,7 @@ from softkin.core.samples import (
     command_columns,
     coordinate_columns,
     informative_coordinates,
+    measured_coordinates,
 )
 
 
@@ -30,3 +31,10 @@ def test_a_range_of_the_limit_is_constant_and_any_larger_one_is_not() -> None:
 
 def test_the_length_of_samples_is_their_number_of_rows() -> None:
     assert len(Samples(np.zeros((4, 2)), np.zeros((4, 3)))) == 4
+
+
+def test_averages_are_over_what_was_measured() -> None:
+    planar = np.array([[1.0, 2.0, 0.0, 3.0, 4.0, 0.0], [2.0, 2.0, 0.0, 3.0, 5.0, 0.0]])
+    assert measured_coordinates(planar).tolist() == [True, True, False] * 2
+    planar[1, 5] = 1e-9
+    assert measured_coordinates(planar).all()

@@ -9,6 +9,7 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 from sklearn.preprocessing import StandardScaler
@@ -31,6 +32,12 @@ STARTS = (0.5, 1.0, 2.0, 4.0)
 REFINED_STARTS = 4
 #: An axis less than this (rad) off z counts as z: the squares of such numbers may underflow.
 PARALLEL = 1e-15
+#: A marker trembles at the base where it moves by at most these shares of what the marker that moves most does, and
+#: the one that moves least after it: along an evenly marked arm each moves by a quarter of the next or more.
+TREMBLES, TREMBLES_BESIDE = 0.01, 0.05
+#: An estimated base is out of reach where it is farther from the nearest marker than the robot is long; of a single
+#: marker no length is known, but no robot is so many times as long as its tip moves.
+LENGTHS_OF_ONE_MARKER = 10.0
 #: Estimates that are cached: a study fits all its trials to the same few parts of `train`.
 MAX_CACHED = 64
 
@@ -41,10 +48,14 @@ _Key = tuple[bytes, tuple[int, ...]]
 
 @dataclass(frozen=True, slots=True)
 class BaseFrame:
-    """`origin` (3,) in mm and `axis` (3,), the unit vector along which the straight robot leaves its base."""
+    """`origin` (3,) in mm and `axis` (3,), the unit vector along which the straight robot leaves its base.
+
+    `refused_mm`: how far from the nearest marker the base was estimated, where that is out of reach and not used.
+    """
 
     origin: Array
     axis: Array
+    refused_mm: float | None = None
 
     def to_base(self, points: Array) -> Array:
         """Points (n_rows, n_markers, 3) in the data's frame -> the frame of the base, whose z is the axis."""
@@ -71,14 +82,16 @@ def base_frame(commands: Array, points: Array, declared: Mapping[str, Any] | Non
     in mm.
 
     `declared` may hold `origin` (mm; None where a coordinate is not known) and `axis`. What it does not hold is
-    estimated: the origin is a constant marker, if there is one; else origin and axis are those for which arcs that are
-    linear in the commands come closest to the markers, by robust least squares.
+    estimated: the origin is a marker at the base, if there is one; else origin and axis are those for which arcs that
+    are linear in the commands come closest to the markers, by robust least squares. An origin that is farther from the
+    markers than the robot is long is not used: it is brought as near as that.
     """
     declared = declared or {}
-    still = np.ptp(points, axis=0).max(axis=1) <= CONSTANT_RANGE_MM
+    still = markers_at_the_base(points)
     origin = np.array(declared.get("origin") or [None] * 3, dtype=np.float64)
     if np.isnan(origin).all() and still.any():
-        origin = points[0, np.flatnonzero(still)[0]]
+        at_base = points[:, np.flatnonzero(still)[0]]
+        origin = at_base[0] if np.ptp(at_base, axis=0).max() <= CONSTANT_RANGE_MM else np.median(at_base, axis=0)
     axis = _unit(declared["axis"]) if declared.get("axis") else None
     if axis is not None and not np.isnan(origin).any():
         return BaseFrame(origin, axis)
@@ -86,7 +99,39 @@ def base_frame(commands: Array, points: Array, declared: Mapping[str, Any] | Non
     commands, moving = commands[drawn], points[np.ix_(drawn, ~still)]
     rows = _sample_without_outliers(commands, moving)
     arrays = np.asarray(commands[rows], dtype=np.float64), np.asarray(moving[rows], dtype=np.float64)
-    return _cached(*((array.tobytes(), array.shape) for array in arrays), origin.tobytes(), _bytes(axis))
+    frame = _cached(*((array.tobytes(), array.shape) for array in arrays), origin.tobytes(), _bytes(axis))
+    return _within_reach(frame, arrays[1]) if np.isnan(origin).any() else frame
+
+
+def markers_at_the_base(points: Array) -> NDArray[np.bool_]:
+    """Mask (n_markers,) of the markers of `points` (n_rows, n_markers, 3) that never move; where there are none, of the
+    one that only trembles, if there is one.
+    """
+    still = np.asarray(np.ptp(points, axis=0).max(axis=1) <= CONSTANT_RANGE_MM)
+    if still.any() or len(still) < 2:
+        return still
+    moved = np.median(np.linalg.norm(points - np.median(points, axis=0), axis=2), axis=0)
+    least, beside = np.argsort(moved, kind="stable")[:2]
+    still[least] = moved[least] <= min(TREMBLES * moved.max(), TREMBLES_BESIDE * moved[beside])
+    return still
+
+
+def _within_reach(frame: BaseFrame, points: Array) -> BaseFrame:
+    """The frame, or one whose origin is as far from the nearest of `points` (n_rows, n_markers, 3) as the robot is long
+    where it was estimated farther away.
+    """
+    n_rows, n_markers = points.shape[:2]
+    if n_markers > 1:
+        length = max(float(np.linalg.norm(points - points[:, [place]], axis=2).max()) for place in range(n_markers))
+    else:
+        length = LENGTHS_OF_ONE_MARKER * float(np.linalg.norm(np.ptp(points.reshape(n_rows, 3), axis=0)))
+    distances = np.linalg.norm(points - frame.origin, axis=2)
+    nearest = float(distances.min())
+    if nearest <= length:
+        return frame
+    row, marker = np.unravel_index(int(distances.argmin()), distances.shape)
+    middle = points[row, marker]
+    return BaseFrame(middle + (frame.origin - middle) * (length / nearest), frame.axis, refused_mm=nearest)
 
 
 def _sample_without_outliers(commands: Array, points: Array) -> Indices:

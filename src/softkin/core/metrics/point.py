@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn import metrics
 
-from softkin.core.samples import Array
+from softkin.core.samples import Array, measured_coordinates
 
 
 def rmse_mm(true: Array, predicted: Array) -> float:
@@ -54,13 +54,19 @@ PAPER_METRICS: dict[str, Callable[[Array, Array], float]] = {
 LARGER_IS_BETTER = {"rmse_mm": False, "mae_mm": False, "r2": True, "mape_percent": False}
 
 
+def paper_metrics(true: Array, predicted: Array) -> dict[str, float]:
+    """The paper's metrics; those of a planar robot are averaged over its two coordinates: the third is not measured."""
+    measured = measured_coordinates(true)
+    return {name: metric(true[:, measured], predicted[:, measured]) for name, metric in PAPER_METRICS.items()}
+
+
 def point_metrics(true: Array, predicted: Array, informative: NDArray[np.bool_]) -> dict[str, float]:
     """All point metrics of one subset.
 
     `informative` (n_coordinates,) masks the coordinates that move; the `_informative` metrics are over those only,
     and the Euclidean ones (mean, and 95th percentile over rows) are averaged over the markers that have one.
     """
-    values = {name: metric(true, predicted) for name, metric in PAPER_METRICS.items()}
+    values = paper_metrics(true, predicted)
     moving_true, moving_predicted = true[:, informative], predicted[:, informative]
     values |= {
         "rmse_informative_mm": rmse_mm(moving_true, moving_predicted),

@@ -13,6 +13,7 @@ from softkin.core.samples import (
     command_columns,
     coordinate_columns,
     informative_coordinates,
+    measured_coordinates,
 )
 from softkin.data.audit.findings import WARNING, CheckResult, Finding
 
@@ -20,8 +21,9 @@ from softkin.data.audit.findings import WARNING, CheckResult, Finding
 def check(samples: Mapping[str, Samples]) -> CheckResult:
     """At most one finding on constant coordinates, and one on constant commands."""
     train = samples[TRAIN]
-    moving = informative_coordinates(train.positions)
-    coordinates = [name for name, moves in zip(coordinate_columns(len(moving) // 3), moving, strict=True) if not moves]
+    moving, measured = informative_coordinates(train.positions), measured_coordinates(train.positions)
+    names = np.array(coordinate_columns(len(moving) // 3))
+    coordinates = names[measured & ~moving].tolist()
     varied = np.ptp(train.commands, axis=0) > 0
     commands = [name for name, varies in zip(command_columns(len(varied)), varied, strict=True) if not varies]
     findings = []
@@ -33,7 +35,7 @@ def check(samples: Mapping[str, Samples]) -> CheckResult:
                 "constant_coordinates",
                 WARNING,
                 (TRAIN,),
-                f"{len(coordinates)} of {len(moving)} coordinates never move on train (by less than "
+                f"{len(coordinates)} of {int(measured.sum())} coordinates never move on train (by less than "
                 f"{CONSTANT_RANGE_MM:g} mm): {', '.join(coordinates)}{whole}.",
                 "Any model predicts them exactly, so averages over all coordinates look better than the model is, and "
                 "their R2 is 1 or 0, as rounding decides. Read the columns named `_informative`, which leave them out.",

@@ -8,21 +8,23 @@ not: that is a warning.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from softkin.core.metrics.point import euclidean_errors
-from softkin.core.rows import Indices, row_groups, split_by_subset, stacked_commands
+from softkin.core.rows import row_groups, split_by_subset, stacked_commands
 from softkin.core.samples import TRAIN, Array, Samples
 from softkin.data.audit.findings import LEAK, LEAK_CONSEQUENCES, NOTE, WARNING, CheckResult, Finding, finding_of_rows
 
 #: From this share of a subset's rows on, copies are a leak: its score is training error. Below, they are a warning.
 LEAK_SHARE = 0.01
 MEASURED_ANEW = (
-    "Their score says how well poses repeat, in noise and drift, and not how well a model predicts commands that it was "
-    "not fitted to. A split by time keeps the order of rows and lets commands repeat; the split `random` keeps rows of "
-    "one command together."
+    "Their score says how well poses repeat, in noise and drift, and not how well a model predicts commands that it "
+    "was not fitted to. A split by time keeps the order of rows and lets commands repeat; the split `random` keeps "
+    "rows of one command together."
 )
 
 
@@ -57,7 +59,7 @@ def check(samples: Mapping[str, Samples]) -> CheckResult:
     return CheckResult(tuple(findings), numbers)
 
 
-def _measured_anew(subset: str, anew: Array, moved: Array) -> Finding:
+def _measured_anew(subset: str, anew: NDArray[np.bool_], moved: Array) -> Finding:
     """The finding on the rows of a mask (n_rows,) whose poses lie so far off, (n_marked,) in mm."""
     count, total = int(anew.sum()), len(anew)
     return finding_of_rows(
@@ -70,7 +72,7 @@ def _measured_anew(subset: str, anew: Array, moved: Array) -> Finding:
     )
 
 
-def _moved(rows: Samples, train: Samples, codes: Indices, train_codes: Indices) -> Array:
+def _moved(rows: Samples, train: Samples, codes: NDArray[Any], train_codes: NDArray[Any]) -> Array:
     """How far (n_rows,) the farthest marker of each row lies from the mean pose of `train` at its command, mm."""
     means = pd.DataFrame(train.positions).groupby(train_codes).mean()
     return np.asarray(euclidean_errors(means.loc[codes].to_numpy(), rows.positions).max(axis=1))

@@ -3,25 +3,39 @@
 from __future__ import annotations
 
 import logging
+import re
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from softkin.core.files import write_json, write_text
-from softkin.core.geometry.base_frame import base_frame
-from softkin.core.samples import CONSTANT_RANGE_MM, SUBSETS, TRAIN, Array, Samples, command_columns, coordinate_columns
+from softkin.core.geometry.base_frame import base_frame, markers_at_the_base
+from softkin.core.samples import (
+    CONSTANT_RANGE_MM,
+    SUBSETS,
+    TRAIN,
+    Array,
+    Samples,
+    command_columns,
+    coordinate_columns,
+    informative_coordinates,
+)
 from softkin.data.audit import CHECKS
-from softkin.data.audit.findings import LEAK, worst_severity
+from softkin.data.audit.findings import LEAK, Finding, worst_severity
 from softkin.data.audit.page import page
+from softkin.data.marker_order import RELABELLED
 from softkin.data.readers.complete_rows import GAPS
 from softkin.data.table import read_subset
 
 logger = logging.getLogger("softkin")
 
-#: Keys of a dataset's description, and of its card, for what was left out.
-LEFT_OUT = ("removed_from_train", GAPS)
+#: Keys of a dataset's description, and of its card, for what was left out or mended.
+LEFT_OUT = ("removed_from_train", GAPS, RELABELLED)
+#: Names of columns in softkin's tables, in a sentence.
+COLUMN = re.compile(r"\b(?:u\d+|m\d+_[xyz])\b")
 
 
 def audit(
@@ -32,7 +46,7 @@ def audit(
     position_unit: str,
     data_card: str | Path,
     readable: str | Path,
-    without: Mapping[str, Any] | None = None,
+    description: Mapping[str, Any] | None = None,
     base: Mapping[str, Any] | None = None,
 ) -> None:
     """Run every check on a tidy table, and write the data card and its readable page.
@@ -44,7 +58,8 @@ def audit(
         position_unit: unit of positions in the dataset's own file, for the card.
         data_card: path of the card to write (JSON).
         readable: path of the page to write (Markdown).
-        without: keys of the card for what was left out, of `left_out`; None where nothing was asked for.
+        description: of the dataset: what was left out or mended, and what its file calls its columns; None where
+            nothing is known of it.
         base: what the dataset's entry declares of the robot's base.
 
     Raises:
@@ -52,7 +67,9 @@ def audit(
     """
     samples = {subset: read_subset(table, subset) for subset in SUBSETS}
     results = {name: check(samples) for name, check in CHECKS.items()}
-    findings = [finding for result in results.values() for finding in result.findings]
+    about = description or {}
+    own = _own_names(samples[TRAIN], about.get("columns"))
+    findings = [_in_own_words(finding, own) for result in results.values() for finding in result.findings]
     card: dict[str, Any] = {
         "dataset": dataset,
         "title": title,
@@ -62,7 +79,7 @@ def audit(
         "unit": "mm",
         "unit_in_file": position_unit,
         "subsets": {subset: _description(rows) for subset, rows in samples.items()},
-        **(without or {"removed_from_train": None}),
+        **({"removed_from_train": None} | left_out(about)),
         "base": _base(samples[TRAIN], base or {}),
         "checks": {name: dict(result.numbers) for name, result in results.items()},
     }
@@ -76,9 +93,26 @@ def audit(
 
 def left_out(description: Mapping[str, Any]) -> dict[str, Any]:
     """The keys of a card for what a dataset's description says was left out: rows that cleaning dropped from `train`,
-    by kind (None where it was not asked for), and what of the file was not read, where the entry asked for that.
+    by kind (None where it was not asked for), what of the file was not read, and rows whose markers were put in order,
+    where the entry asked for that.
     """
     return {key: description[key] for key in LEFT_OUT if key in description}
+
+
+def _own_names(train: Samples, columns: Mapping[str, Any] | None) -> dict[str, str]:
+    """Name of a column in tables -> what the robot's own file calls it; empty where that is not known."""
+    if columns is None:
+        return {}
+    coordinates = coordinate_columns(train.positions.shape[1] // 3)
+    named = [name for name in coordinates if columns["dimensions"] == 3 or not name.endswith("z")]
+    commands = zip(command_columns(train.commands.shape[1]), columns["commands"], strict=True)
+    return dict([*commands, *zip(named, columns["positions"], strict=True)])
+
+
+def _in_own_words(finding: Finding, own: Mapping[str, str]) -> Finding:
+    """The finding with columns called as in the robot's own file."""
+    sentence = COLUMN.sub(lambda match: own.get(match.group(), match.group()), finding.sentence)
+    return replace(finding, sentence=sentence)
 
 
 def _description(rows: Samples) -> dict[str, Any]:
@@ -93,13 +127,20 @@ def _description(rows: Samples) -> dict[str, Any]:
 def _base(train: Samples, declared: Mapping[str, Any]) -> dict[str, Any]:
     """The base of the robot, where curvature coordinates start: as declared, and estimated from `train` otherwise."""
     points = train.positions.reshape(len(train), -1, 3)
-    still = np.ptp(points, axis=0).max(axis=1) <= CONSTANT_RANGE_MM
-    if still.all():
+    if not informative_coordinates(train.positions).any():
         return {"not_measured": "no marker moves"}
     frame = base_frame(train.commands, points, declared)
     known = [value is not None for value in declared.get("origin") or [None] * 3]
-    rest = "a marker that never moves" if still.any() and not any(known) else "estimated"
-    return {
+    rest = "estimated"
+    if markers_at_the_base(points).any() and not any(known):
+        constant = np.ptp(points, axis=0).max(axis=1) <= CONSTANT_RANGE_MM
+        rest = "a marker that never moves" if constant.any() else "a marker that only trembles"
+    refused = {} if frame.refused_mm is None else {"refused_mm": frame.refused_mm}
+    if refused:
+        logger.warning(
+            "the base was estimated %.3g mm from the markers, out of reach, and is not used", *refused.values()
+        )
+    return refused | {
         "origin_mm": frame.origin.tolist(),
         "origin_from": ["declared" if is_known else rest for is_known in known],
         "axis": frame.axis.tolist(),

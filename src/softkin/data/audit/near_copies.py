@@ -11,13 +11,14 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.stats import binom
 from sklearn.neighbors import NearestNeighbors
 
 from softkin.core.rows import command_scale, first_of_each, row_groups, sampled_rows
 from softkin.core.samples import TRAIN, Array, Samples
 from softkin.data.audit.copied_commands import MEASURED_ANEW
-from softkin.data.audit.findings import LEAK, LEAK_CONSEQUENCES, WARNING, CheckResult, finding_of_rows
+from softkin.data.audit.findings import LEAK, LEAK_CONSEQUENCES, WARNING, CheckResult, Finding, finding_of_rows
 
 #: A command nearer than this share of the local spacing is a near copy.
 NEAR_SHARE = 0.01
@@ -65,19 +66,22 @@ def check(samples: Mapping[str, Samples], seed: int = 0) -> CheckResult:
             marked = np.zeros(len(samples[subset]), dtype=bool)
             marked[checked[near]] = True
             is_leak = repeats.sum() > binom.isf(CHANCE_OF_FALSE_ALARM, total, CHANCE_SHARE)
-            findings.append(
-                finding_of_rows(
-                    "near_copied_commands",
-                    LEAK if is_leak else WARNING,
-                    {subset: marked},
-                    f"Of {total} rows of {subset} that were looked at, {count} ({count / total:.1%}) lie nearer to "
-                    "a train command than a hundredth of the spacing of train commands there"
-                    + (", with its pose." if is_leak else ", measured anew."),
-                    f"{consequence if is_leak else MEASURED_ANEW} The commands differ by next to nothing, as if one command had been repeated with "
-                    "jitter and its repetitions spread over the subsets.",
-                )
-            )
+            findings.append(_finding(subset, marked, total, consequence if is_leak else None))
     return CheckResult(tuple(findings), numbers)
+
+
+def _finding(subset: str, marked: NDArray[np.bool_], total: int, leak: str | None) -> Finding:
+    """The finding on marked rows (n_rows,) of a subset; `leak` is what follows where poses repeat, too."""
+    count, how = int(marked.sum()), "measured anew" if leak is None else "with its pose"
+    return finding_of_rows(
+        "near_copied_commands",
+        WARNING if leak is None else LEAK,
+        {subset: marked},
+        f"Of {total} rows of {subset} that were looked at, {count} ({count / total:.1%}) lie nearer to "
+        f"a train command than a hundredth of the spacing of train commands there, {how}.",
+        f"{leak or MEASURED_ANEW} The commands differ by next to nothing, as if one command had been repeated with "
+        "jitter and its repetitions spread over the subsets.",
+    )
 
 
 def _spacing(tree: NearestNeighbors, commands: Array) -> Array:

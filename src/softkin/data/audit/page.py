@@ -33,6 +33,7 @@ def page(card: Mapping[str, Any]) -> str:
         _rows(card),
         *_removed(card["removed_from_train"]),
         *_gaps(card.get("rows_with_gaps")),
+        *_relabelled(card.get("relabelled_rows")),
         "## Ranges",
         f"Commands in the file's own unit, positions in mm (the file has {card['unit_in_file']}).",
         _ranges(card["subsets"]),
@@ -91,6 +92,13 @@ def _gaps(count: int | None) -> list[str]:
     return [f"Left out by `missing: drop_rows`, since a number is missing: {counted(count, 'row')} of the file."]
 
 
+def _relabelled(counts: Mapping[str, int] | None) -> list[str]:
+    if counts is None:
+        return []
+    listed = ", ".join(f"{count} of {subset}" for subset, count in counts.items())
+    return [f"Markers put back in order by `relabel: true`, rows: {listed}."]
+
+
 def _ranges(subsets: Mapping[str, Any]) -> str:
     columns = [(kind, name) for kind in ("commands", "positions_mm") for name in subsets[TRAIN][kind]]
     rows = [
@@ -109,9 +117,16 @@ def _base(base: Mapping[str, Any]) -> str:
         for name, value, how in zip("xyz", base["origin_mm"], base["origin_from"], strict=True)
     )
     axis = ", ".join(f"{value:.4g}" for value in base["axis"])
+    refused = (
+        f" It was estimated {base['refused_mm']:.3g} mm from the nearest marker, farther than the robot is long: that "
+        "is not used, and the base is as far away as the robot is long. Declare it, if curvature coordinates matter."
+        if "refused_mm" in base
+        else ""
+    )
     return (
         f"At {origin} mm; the straight robot leaves it along ({axis}), {base['axis_from']}. Models in "
         "curvature coordinates are fitted to the arcs from there to the markers. `base` in the entry declares it."
+        f"{refused}"
     )
 
 

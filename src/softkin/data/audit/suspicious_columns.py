@@ -23,9 +23,9 @@ from softkin.data.audit.findings import WARNING, CheckResult, Finding
 AFFINE = 1e-4
 #: Norms this near to 1 in all rows are of unit vectors.
 UNIT_NORM = 1e-3
-#: Columns that agree to this share of their range are copies; two that differ by less than the second share (RMS) are
-#: desired and measured values.
-COPY, PAIR = 1e-6, 0.02
+#: Columns that agree to this share of their range are copies. Commands that differ by less than the second share (RMS)
+#: are desired and measured values; of a command and a position, in units that need not be the same, the third counts.
+COPY, PAIR, PAIR_OF_KINDS = 1e-6, 0.02, 0.005
 MAX_ROWS, MAX_COLUMNS, FEWEST_ROWS, ROWS_PER_TERM = 5_000, 64, 20, 3
 CONSEQUENCES = {
     "suspicious_affine": "A measured soft robot is never so exact: one of these columns is the output of a model, or a "
@@ -88,9 +88,7 @@ def _differences(commands: Array, positions: Array) -> Iterator[str]:
         if (other - one) % 3:
             continue
         difference = positions[:, one] - positions[:, other]
-        misses = np.minimum(
-            *(np.abs(commands - sign * difference[:, None]).max(axis=0) for sign in (1.0, -1.0))
-        )
+        misses = np.minimum(*(np.abs(commands - sign * difference[:, None]).max(axis=0) for sign in (1.0, -1.0)))
         for place in np.flatnonzero((extents > 0) & (misses <= AFFINE * extents)):
             yield f"{told[place]} is the difference of {names[one]} and {names[other]}"
 
@@ -140,7 +138,8 @@ def _pairs(commands: Array, positions: Array) -> Iterator[str]:
             extent = min(extents[one], extents[other])
             difference = values[:, one] - values[:, other]
             typical = float(np.sqrt((difference**2).mean()))
-            if COPY * extent < typical <= PAIR * extent:
+            limit = PAIR if other < n_commands else PAIR_OF_KINDS
+            if COPY * extent < typical <= limit * extent:
                 yield f"{names[one]} and {names[other]} differ by {typical / extent:.2%} of their range"
 
 

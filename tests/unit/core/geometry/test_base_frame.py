@@ -5,8 +5,9 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from softkin.core.geometry.base_frame import BaseFrame, base_frame
+from softkin.core.geometry.base_frame import BaseFrame, base_frame, markers_at_the_base
 from softkin.core.geometry.constant_curvature import from_arcs
+from tests.conftest import HOUSE
 
 
 def unit(vector: list[float]) -> np.ndarray:
@@ -95,6 +96,35 @@ def test_a_marker_that_never_moves_is_the_base() -> None:
     frame = base_frame(commands, np.concatenate([constant, points], axis=1))
     np.testing.assert_array_equal(frame.origin, true.origin)
     np.testing.assert_allclose(frame.axis, true.axis, atol=1e-5)
+
+
+def test_case_31_a_marker_that_only_trembles_is_the_base() -> None:
+    table = np.loadtxt(HOUSE / "tests/cases/31_time_blocks_and_trembling_base.csv", delimiter=",", skiprows=1)
+    points = 1000 * table[:, 3:].reshape(len(table), 3, 3)
+    assert markers_at_the_base(points).tolist() == [True, False, False]
+    frame = base_frame(table[:, 1:3], points)
+    np.testing.assert_allclose(frame.origin, points[:, 0].mean(axis=0), atol=0.05)
+    assert frame.refused_mm is None
+
+
+def test_the_first_marker_of_an_evenly_marked_arm_is_no_base() -> None:
+    bends = np.random.default_rng(0).uniform(-0.5, 0.5, (100, 1))
+    along = np.arange(1.0, 11.0) * 20
+    points = np.stack([along**2 / 400 * bends, 0 * along * bends, along + 0 * bends], axis=-1)
+    assert not markers_at_the_base(points).any()
+
+
+def test_an_estimate_out_of_reach_is_not_used() -> None:
+    """Markers that are shifted as a whole bend around a base at infinity."""
+    rng = np.random.default_rng(0)
+    commands = rng.uniform(-1, 1, (100, 2))
+    shifts = np.column_stack([5 * commands, np.zeros(100)]) + 0.01 * rng.standard_normal((100, 3))
+    points = shifts[:, None] + np.array([[0, 0, 0], [0, 0, 5.0]])
+    frame = base_frame(commands, points)
+    assert frame.refused_mm is not None
+    reach = np.linalg.norm(points[:, 0] - points[:, 1], axis=1).max()
+    assert frame.refused_mm > reach
+    assert np.linalg.norm(points - frame.origin, axis=2).min() <= 1.5 * reach
 
 
 def test_a_planar_robot_has_its_base_in_its_plane() -> None:

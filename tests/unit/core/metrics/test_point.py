@@ -6,7 +6,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from softkin.core.metrics.point import euclidean_errors, mae_mm, mape_percent, point_metrics, r2, rmse_mm
+from softkin.core.metrics.point import (
+    euclidean_errors,
+    mae_mm,
+    mape_percent,
+    paper_metrics,
+    point_metrics,
+    r2,
+    rmse_mm,
+)
 
 TRUE = np.array([[1.0, 2.0, 0.0], [3.0, 2.0, 4.0]])
 PREDICTED = np.array([[2.0, 2.0, 0.0], [3.0, 2.0, 2.0]])
@@ -53,3 +61,15 @@ def test_informative_metrics_leave_out_what_never_moves() -> None:
     assert [values["rmse_informative_mm"], values["mae_informative_mm"]] == pytest.approx([0.3, 0.3])
     assert values["r2_informative"] == pytest.approx(r2(moving, moving + 0.3))
     assert [values["euclidean_mean_mm"], values["euclidean_p95_mm"]] == pytest.approx([0.3 * np.sqrt(3)] * 2)
+
+
+def test_case_32_a_planar_robot_is_averaged_over_its_two_coordinates() -> None:
+    rng = np.random.default_rng(0)
+    planar, off = rng.normal(100, 10, (20, 2, 2)), rng.normal(0, 1, (20, 2, 2))
+    true = np.pad(planar, ((0, 0), (0, 0), (0, 1))).reshape(20, 6)
+    predicted = np.pad(planar + off, ((0, 0), (0, 0), (0, 1))).reshape(20, 6) + 1e-9 * np.array([0, 0, 1, 0, 0, 1])
+    flat = planar.reshape(20, 4), (planar + off).reshape(20, 4)
+    metrics = {"rmse_mm": rmse_mm, "mae_mm": mae_mm, "r2": r2, "mape_percent": mape_percent}
+    assert paper_metrics(true, predicted) == {name: metric(*flat) for name, metric in metrics.items()}
+    values = point_metrics(true, predicted, np.array([True, True, False] * 2))
+    assert values["mape_percent"] == values["mape_informative_percent"] < 10

@@ -34,3 +34,11 @@ def test_a_coordinate_that_moves_by_a_thousandth_of_a_millimetre_moves(
     result = check(changed("train", slice(None), positions=positions))
     assert not result.findings
     assert result.numbers == {"coordinates": [], "commands": []}
+
+
+def test_the_third_coordinate_of_a_planar_robot_is_no_finding(robot: dict[str, Samples], changed: Replace) -> None:
+    samples = robot
+    for name, rows in robot.items():
+        flat = rows.positions * np.tile([1.0, 1.0, 0.0], 2)
+        samples = changed(name, slice(None), positions=flat, of=samples)
+    assert check(samples).findings == ()

@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from softkin.core.samples import Samples
@@ -52,7 +54,12 @@ def test_a_command_of_train_that_is_measured_anew_is_no_leak(robot: dict[str, Sa
 
 
 def test_case_33_repeated_commands_in_a_split_by_time_are_no_leak() -> None:
-    entry = {"file": "33", "position_unit": "mm", "commands": ["u1", "u2"], "positions": ["x", "y", "z"]}
+    entry: dict[str, Any] = {
+        "file": "33",
+        "position_unit": "mm",
+        "commands": ["u1", "u2"],
+        "positions": ["x", "y", "z"],
+    }
     entry |= {"split": {"method": "time", "column": "time"}, "order": "time"}
     path = HOUSE / "tests" / "cases" / "33_repeated_command_by_time.csv"
     findings = check(table_file.read(path, dataset="arm", source=entry)).findings

@@ -43,7 +43,8 @@ def test_findings_stand_in_card_and_page(robot: dict[str, Samples], changed: Rep
     first = robot["train"].take(slice(20))
     samples = changed("test", slice(0, 20), commands=first.commands, positions=first.positions)
     samples = changed("train", [300], positions=robot["train"].positions[5], of=samples)
-    card, readable = audited(samples, tmp_path, without={"removed_from_train": {"stuck_rows": 3, "duplicate_rows": 0}})
+    removed = {"stuck_rows": 3, "duplicate_rows": 0}
+    card, readable = audited(samples, tmp_path, description={"removed_from_train": removed})
     assert (card["worst_severity"], card["is_leaking"]) == ("leak", True)
     assert {"copied_commands", "stuck_poses"} <= {finding["code"] for finding in card["findings"]}
     for finding in card["findings"]:
@@ -115,5 +116,23 @@ def test_what_was_left_out_of_a_dataset_is_a_part_of_its_card(
 ) -> None:
     description = {"dataset": "arm", "rows": {}} | keys
     assert left_out(description) == keys
-    card, _ = audited(robot, tmp_path, without=left_out(description))
+    card, _ = audited(robot, tmp_path, description=description)
     assert {key: card[key] for key in card if key in keys or key == "rows_with_gaps"} == keys
+
+
+def test_findings_call_columns_as_the_robots_own_file_does(robot: dict[str, Samples], tmp_path: Path) -> None:
+    copied = {
+        name: Samples(np.column_stack([rows.commands, 2 * rows.commands[:, 0]]), rows.positions)
+        for name, rows in robot.items()
+    }
+    names = {"commands": ["left", "right", "both"], "positions": [f"{m} {axis}" for m in "AB" for axis in "XYZ"]}
+    card, readable = audited(copied, tmp_path, description={"columns": names | {"dimensions": 3}})
+    assert [finding["sentence"] for finding in card["findings"]] == ["both is 2 times left."]
+    assert "both is 2 times left" in readable
+
+
+def test_relabelled_rows_stand_in_card_and_page(robot: dict[str, Samples], tmp_path: Path) -> None:
+    counts = {"train": 7, "validation": 0, "test": 1, "extrapolation": 2}
+    card, readable = audited(robot, tmp_path, description={"relabelled_rows": counts})
+    assert card["relabelled_rows"] == counts
+    assert "`relabel: true`, rows: 7 of train, 0 of validation, 1 of test, 2 of extrapolation." in readable
