@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from softkin.cli import column_kinds
+from softkin.cli.guess_questions import PIXELS, Question, question_of, reasons_left_out, words_of
 from softkin.core.errors import DataError
 from softkin.core.samples import Array
 from softkin.data import split
@@ -38,25 +39,28 @@ UNITS = frozenset({"m", "cm", "mm", "in"})
 
 
 def guess_entry(
-    path: Path, title: str, file: str, options: Mapping[str, Any] | None = None
+    path: Path, title: str, file: str, options: Mapping[str, Any] | None = None, answer: int = 0
 ) -> tuple[dict[str, Any], list[str]]:
     """The entry that the table at `path` probably needs, and a sentence on each key that was guessed. `file` is the
-    path that the entry names; `options` are keys of the entry that say how the file is read.
+    path that the entry names; `options` are keys of the entry that say how the file is read; `answer` is 0 or 1, where
+    the table raises a question (`asked`).
 
     Raises:
         DataError: the file cannot be read, or its columns do not tell which are positions and commands.
     """
     try:
-        table = open_table(path, options or {})
-        looked = dict(zip(table.names, table.look(), strict=True))
-        left = [*column_kinds.computed(table.names), *column_kinds.quaternions(table.names, looked)]
+        table, looked = _looked(path, options)
+        question = question_of(table.names, looked)
+        asked_out = () if question is None else question.left_out[answer]
+        told = question.as_commands if question is not None and answer else ()
+        left = [*column_kinds.computed(table.names), *column_kinds.quaternions(table.names, looked), *asked_out, *told]
         usable = [name for name in table.names if name not in left]
         positions, dimensions, reasons = _positions(usable, path)
         kinds = {name: _kind(name) for name in usable if name not in positions}
         numeric = {name: kind for name, kind in kinds.items() if looked[name].dtype != object}
-        commands, why_commands = _commands(numeric, table.names, path)
+        commands, why_commands = _commands(numeric, table.names, path, told)
         reasons += why_commands
-        values, missing, why_missing = _values(table, [*commands, *positions])
+        values, missing, why_missing = _values(table, [*commands, *positions], looked)
         inputs, values = values[:, : len(commands)], values[:, len(commands) :]
     except DataError as error:
         raise error if error.where == str(path) else error.within(str(path)) from error
@@ -92,8 +96,20 @@ def guess_entry(
     used = (*commands, *positions, split_options.get("column"), *when.values())
     left_out = [name for name in table.names if name not in used]
     if left_out:
-        reasons.append(f"left out: {', '.join(left_out)}")
+        reasons.append(f"left out: {reasons_left_out(left_out, looked, {name: _kind(name) for name in left_out})}")
     return entry, reasons
+
+
+def asked(path: Path, options: Mapping[str, Any] | None = None) -> Question | None:
+    """The question that the table at `path` raises; `guess_entry` takes the answer. None where it raises none."""
+    table, looked = _looked(path, options)
+    return question_of(table.names, looked)
+
+
+def _looked(path: Path, options: Mapping[str, Any] | None) -> tuple[Table, dict[str, Any]]:
+    """The table, and its columns (n_rows,) as far as they can be read."""
+    table = open_table(path, options or {})
+    return table, dict(zip(table.names, table.look(), strict=True))
 
 
 def _kind(name: str) -> str | None:
@@ -124,9 +140,11 @@ def _positions(names: Sequence[str], path: Path) -> tuple[list[str], int, list[s
     )
 
 
-def _commands(kinds: Mapping[str, str | None], names: Sequence[str], path: Path) -> tuple[list[str], list[str]]:
-    """Columns of commands, and what a person must check of them."""
-    commands = [name for name, kind in kinds.items() if kind == "command"]
+def _commands(
+    kinds: Mapping[str, str | None], names: Sequence[str], path: Path, told: Sequence[str]
+) -> tuple[list[str], list[str]]:
+    """Columns of commands, those that a person says are `told` the robot among them, and what is to be checked."""
+    commands = [*(name for name, kind in kinds.items() if kind == "command"), *told]
     if commands:
         return commands, []
     unknown = [name for name, kind in kinds.items() if kind is None]
@@ -139,11 +157,12 @@ def _commands(kinds: Mapping[str, str | None], names: Sequence[str], path: Path)
     return unknown, ["commands: all columns that look like nothing else; please check"]
 
 
-def _values(table: Table, names: Sequence[str]) -> tuple[Array, dict[str, str], list[str]]:
-    """Values (n_rows, n_names) of columns, the key `missing` where some are, and why.
+def _values(table: Table, names: Sequence[str], looked: Mapping[str, Any]) -> tuple[Array, dict[str, str], list[str]]:
+    """Values (n_rows, n_names) of columns, the key `missing` where some are, and why; of the rows that were `looked` at
+    where the file cannot be read to its end.
 
     Raises:
-        DataError: a cell holds something else than a number.
+        DataError: no row holds all numbers.
     """
     places = [table.names.index(name) for name in names]
     try:
@@ -153,7 +172,12 @@ def _values(table: Table, names: Sequence[str]) -> tuple[Array, dict[str, str], 
     try:
         values, _ = table.read(places, [], gaps=True)
     except DataError:
-        raise whole from None
+        seen = [looked[name] if looked[name].dtype != object else np.full(len(looked[name]), np.nan) for name in names]
+        good = np.column_stack(seen)
+        good = good[~np.isnan(good).any(axis=1)]
+        if not len(good):
+            raise whole from None
+        return good, {}, [f"guessed from {len(good)} rows, since the file is not readable to its end; mend it"]
     count = int(np.isnan(values).any(axis=1).sum())
     why = f"missing: {count} of {len(values)} rows lack a number and are left out; please check"
     return values[~np.isnan(values).any(axis=1)], {"missing": "drop_rows"}, [why]
@@ -179,6 +203,8 @@ def _unit(names: Sequence[str], values: Array, path: Path, table: Table) -> tupl
         unit = str(units.pop())
         return unit, f"position_unit: the columns' names say {unit}"
     extent = np.ptp(values, axis=0).max()
+    if any(words_of(name) & PIXELS for name in names):
+        return "mm", "position_unit: the names say pixels, which are no length: bring them to mm; please check"
     unit = "m" if extent <= LARGEST_METRES else "mm"
     return unit, f"position_unit: guessed from the width of the workspace, {extent:.3g}; please check"
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from softkin.cli.datasets_file import append_entry, entry_text, read_key
-from softkin.cli.guess_entry import guess_entry
+from softkin.cli.guess_entry import asked, guess_entry
 from softkin.core.errors import ConfigError, DataError, SoftkinError
 from softkin.data.entries import RESERVED
 from softkin.data.readers import table_file
@@ -26,12 +26,19 @@ NAME = re.compile(r"[a-z][a-z0-9_]*")
 logger = logging.getLogger("softkin")
 
 
-def show_and_write(file: str, name: str | None, write: bool, options: Mapping[str, Any] | None = None) -> None:
+def show_and_write(
+    file: str,
+    name: str | None,
+    write: bool,
+    options: Mapping[str, Any] | None = None,
+    answer: int | None = None,
+) -> None:
     """Print the entry of the robot in `file`; with `write` append it to config/datasets.yaml.
-    `options` are keys of the entry that say how the file is read.
+    `options` are keys of the entry that say how the file is read. Where the table raises a question, both entries are
+    printed, unless `answer` (1 or 2) says which.
 
     Raises:
-        DataError: there is no such file, or it cannot be used.
+        DataError: there is no such file, or it cannot be used, or a question has to be answered first.
         ConfigError: the name is none, or is taken, or the configuration cannot be appended to.
     """
     path = Path(file)
@@ -52,9 +59,20 @@ def show_and_write(file: str, name: str | None, write: bool, options: Mapping[st
         )
     is_below = path.resolve().is_relative_to(Path.cwd())
     listed = path.resolve().relative_to(Path.cwd()).as_posix() if is_below else str(path.resolve())
-    entry, reasons = guess_entry(path, name.replace("_", " ").capitalize(), listed, options)
+    title, question = name.replace("_", " ").capitalize(), asked(path, options)
+    chosen = 0 if question is None or answer is None else answer - 1
+    entry, reasons = guess_entry(path, title, listed, options, chosen)
     text = entry_text(name, entry, reasons)
     print(text, end="")
+    if question is not None and answer is None:
+        other, why = guess_entry(path, title, listed, options, 1)
+        print(entry_text(f"{name}_2", other, why), end="")
+        told = "; ".join(f"{place + 1}: {what}" for place, what in enumerate(question.answers))
+        print(f"Question: {question.text}\nAnswers: {told} (make: ANSWER=1 or 2)", file=sys.stderr)
+        if write:
+            raise DataError(
+                f"a question is open: {question.text}", where=path, fix="answer with --answer (make: ANSWER=1 or 2)"
+            )
     subsets = table_file.read(path, dataset=name, source=entry)
     print("rows: " + ", ".join(f"{subset} {len(rows)}" for subset, rows in subsets.items()), file=sys.stderr)
     if not write:
@@ -77,6 +95,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--name", help="name of the dataset; the file's name where left out")
     parser.add_argument("--header", help="the line of the names of columns, from 1, or none")
     parser.add_argument("--delimiter", help="the character that splits columns")
+    parser.add_argument("--answer", type=int, choices=(1, 2), help="which of two entries, where a question is asked")
     parser.add_argument("--write", action="store_true", help=f"append the entry to {DATASETS}")
     options = parser.parse_args(arguments)
     handler = logging.StreamHandler(sys.stderr)
@@ -87,7 +106,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         said = {"delimiter": options.delimiter, "header": options.header}
         how = {key: int(value) if value.isdecimal() else value for key, value in said.items() if value}
-        show_and_write(options.file, options.name, options.write, how)
+        show_and_write(options.file, options.name, options.write, how, options.answer)
     except (SoftkinError, OSError) as error:
         print(f"new_robot: {error}", file=sys.stderr)
         return 2

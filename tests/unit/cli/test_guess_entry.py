@@ -51,7 +51,7 @@ def test_the_entry_reads_the_file_that_it_was_guessed_from(tmp_path: Path) -> No
     subsets = table_file.read(path, dataset="arm", source=entry)
     assert sum(map(len, subsets.values())) == SIZE
     assert any(reason.startswith("dimensions: ") for reason in reasons)
-    assert "left out: id" in reasons
+    assert "left out: id (a running number)" in reasons
 
 
 def test_each_guess_has_its_reason(tmp_path: Path) -> None:
@@ -99,3 +99,12 @@ def test_columns_of_time_and_session_are_guessed(tmp_path: Path) -> None:
     entry, reasons = guess_entry(path, "Arm", "arm.csv")
     assert "order" not in entry
     assert any("left out, since time and run are none" in reason for reason in reasons)
+
+
+def test_the_guess_is_made_though_the_file_is_not_readable_to_its_end(tmp_path: Path) -> None:
+    table = columns("u1", "u2", "x", "y", "z").astype(object)
+    table.loc[150, "z"] = "broken"
+    table.to_csv(tmp_path / "arm.csv", index=False)
+    entry, reasons = guess_entry(tmp_path / "arm.csv", "Arm", "arm.csv")
+    assert (entry["commands"], entry["positions"]) == (["u1", "u2"], ["x", "y", "z"])
+    assert any("not readable to its end" in reason for reason in reasons)

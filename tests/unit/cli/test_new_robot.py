@@ -75,6 +75,32 @@ def test_it_says_what_to_add_to_the_configuration(house: Path, capsys: pytest.Ca
     assert "--write" in capsys.readouterr().err
 
 
+def test_a_question_shows_both_entries_and_is_never_answered_silently(
+    house: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    before = (house / "config" / "datasets.yaml").read_bytes()
+    shutil.copy(HOUSE / "tests" / "cases" / "21_pixels_two_frames.csv", "arm.csv")
+    assert main(["arm.csv"]) == 0
+    shown = capsys.readouterr()
+    entries = yaml.safe_load(shown.out)
+    assert [entry["positions"] for entry in entries.values()] == [["tip_x", "tip_y"], ["tip_x_img", "tip_y_img"]]
+    assert "Question: tip_x_img, tip_y_img are tip_x, tip_y in another frame" in shown.err
+    assert "ANSWER=1 or 2" in complaint(capsys, "arm.csv", "--write")
+    assert (house / "config" / "datasets.yaml").read_bytes() == before
+    assert main(["arm.csv", "--answer", "2", "--write"]) == 0
+    assert list(yaml.safe_load(capsys.readouterr().out)) == ["arm"]
+
+
+def test_the_guess_is_shown_before_a_file_is_refused(house: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    table = columns("u1", "u2", "x", "y", "z").astype(object)
+    table.loc[150, "z"] = "broken"
+    table.to_csv(house / "arm.csv", index=False)
+    assert main(["arm.csv", "--write"]) == 2
+    shown = capsys.readouterr()
+    assert yaml.safe_load(shown.out)["arm"]["commands"] == ["u1", "u2"]
+    assert "no number: 'broken'" in shown.err
+
+
 def test_a_file_elsewhere_is_named_in_full(
     tmp_path_factory: pytest.TempPathFactory, capsys: pytest.CaptureFixture[str]
 ) -> None:
