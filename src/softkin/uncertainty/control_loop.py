@@ -73,7 +73,7 @@ class State:
             raise DataError(
                 f"{len(rows)} commands, where one is sent at a time",
                 where=self.robot.dataset,
-                fix="send them one after the other, or all by `follow`",
+                fix="send them one after the other, or all at once with follow()",
             )
         return self._after(rows)
 
