@@ -21,8 +21,9 @@ from softkin.core.samples import TRAIN
 from softkin.data.split import has_standardised_norm
 from softkin.data.table import read_subset
 from softkin.models import MODELS
+from softkin.training.held_out import Robot
 from softkin.training.study import KEPT_PERCENT, StudyFile, TuningSettings
-from softkin.training.tune import Robot, SearchSettings, tune_model
+from softkin.training.tune import SearchSettings, tune_model
 
 HOUSE = Path(__file__).parent.parent
 

@@ -17,10 +17,11 @@ import numpy as np
 import pandas as pd
 import yaml
 
+from softkin.core.runs import Run
 from softkin.core.samples import TEST, TRAIN, VALIDATION, Samples
 from softkin.data.prepare import prepare
 from softkin.data.table import read_subset
-from softkin.evaluation.score_recorded import RecordedRun, in_time, next_sessions, over_time, part, relabelled
+from softkin.evaluation.score_recorded import Member, RecordedRun, in_time, next_sessions, over_time, part, relabelled
 from softkin.models import MODELS
 from softkin.training.kinematic_model import STATIC, FitSettings, fitted_model
 from softkin.uncertainty.alarm import Watch
@@ -39,7 +40,8 @@ BASE = {"origin": [0, 0, 0], "axis": [0, 0, 1]}
 
 def run(memory: dict[str, Any]) -> RecordedRun:
     """The Gaussian process with this memory."""
-    return RecordedRun(MODELS["gp"], "tuned", FitSettings(GP, True, 0, 1, base=BASE, memory=memory), LEVEL)
+    settings = FitSettings(GP, True, 0, 1, base=BASE, memory=memory)
+    return RecordedRun(Run("gp", "tuned"), [Member(MODELS["gp"], settings, 1.0)], 0, LEVEL)
 
 
 def finger(mirror: Path) -> Samples:
@@ -91,7 +93,7 @@ def alarms(rows: Samples) -> tuple[list[int], float]:
 
 def milliseconds(rows: Samples) -> float:
     """Median time of `state.step`, with its interval."""
-    settings = run(PLAYED).settings
+    settings = run(PLAYED).members[0].settings
     fitted, held_out = rows.take(np.arange(len(rows)) % 5 > 0), rows.take(np.arange(len(rows)) % 5 == 0)
     model = FittedModel("finger", MODELS["gp"], "tuned", fitted_model(MODELS["gp"], settings, fitted), fitted)
     state = calibrated(model, INTERVAL_METHODS["scp_crepes"], held_out).start(session=1)

@@ -11,6 +11,7 @@ from typing import Any
 from softkin.core.files import read_json
 from softkin.data.audit.findings import leaking_subsets
 from softkin.models import MODELS
+from softkin.models.ensembles import ENSEMBLES
 from softkin.reporting.titles import Titles
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from softkin.uncertainty.labelled import LABELLED_METHODS
@@ -19,7 +20,7 @@ from softkin.uncertainty.regions.spec import JOINT_INTERVALS, JOINT_TITLE
 from tools.run_tables import RunTables
 
 TITLES = Titles(
-    {name: spec.title for name, spec in MODELS.items()},
+    {name: spec.title for name, spec in (MODELS | ENSEMBLES).items()},
     {
         **{name: method.title for name, method in INTERVAL_METHODS.items()},
         **{name: method.title for name, method in REGION_METHODS.items()},

@@ -43,6 +43,7 @@ LISTED = {
 MORE = sorted(path for path in (HOUSE / "config").glob("*.yaml") if path.name not in ("config.yaml", "datasets.yaml"))
 MISSPELT: dict[str, dict[str, Any]] = {
     "models": {"models": ["lrr"]},
+    "ensembles": {"ensembles": ["ensembl"]},
     "max_fit_rows": {"max_fit_rows": {"gpp": 200}},
     "quantile_models": {"quantile_models": ["gbb"]},
     "interval_methods": {"interval_methods": ["scp"]},

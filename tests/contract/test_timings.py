@@ -33,4 +33,4 @@ def test_every_rule_was_timed_and_no_other() -> None:
 def test_they_are_of_the_default_configuration() -> None:
     assert {row.dataset for row in ROWS} - {ANY} == set(CONFIG["datasets"])
     models = {row.model.split("/")[0] for row in ROWS} - {ANY}
-    assert models == set(CONFIG["models"]) | set(CONFIG["quantile_models"])
+    assert models == {*CONFIG["models"], *CONFIG["ensembles"], *CONFIG["quantile_models"]}

@@ -62,7 +62,8 @@ TABLES = {"build_tables", "draw_campaign_figures", "summarise", "build_report"}
 SCORED = {"score", "draw_figures", "track"} | TABLES
 CALIBRATED = {"calibrate"} | SCORED
 REFITTED = {"refit"} | CALIBRATED
-FITTED = {"fit_model"} | REFITTED
+ENSEMBLED = {"fit_ensemble"} | REFITTED
+FITTED = {"fit_model"} | ENSEMBLED
 QUANTILES = {"fit_quantiles"} | CALIBRATED
 ALL = {"prepare", "audit"} | FITTED | QUANTILES
 #: A module of each package -> the rules that run again when it is edited.
@@ -72,8 +73,10 @@ RERUN = {
     "data/readers/published_json.py": ALL,
     "data/audit/stuck_poses.py": {"audit", "draw_figures", "track"} | TABLES,
     "models/svr.py": FITTED,
+    "models/ensembles/greedy.py": ENSEMBLED,
     "models/target_spaces/curvature.py": FITTED,
     "models/quantile/gradient_boosting.py": QUANTILES,
+    "training/ensemble.py": ENSEMBLED,
     "training/refit.py": REFITTED,
     "uncertainty/intervals/split_conformal_crepes.py": CALIBRATED,
     "uncertainty/regions/box.py": SCORED,

@@ -36,8 +36,12 @@ from tests.workflow.conftest import NOWHERE, House, copy_house
 
 pytestmark = pytest.mark.timeout(600)
 DATASETS = ("elastica_2023_09", "finger")
+DEFAULT = yaml.safe_load((HOUSE / "config" / "config.yaml").read_text())
 SMALL = yaml.safe_load((HOUSE / "config" / "test.yaml").read_text())
 POOL = {name: MODELS[name] for name in SMALL["models"]}
+SEARCHED_POOL = [*POOL, *DEFAULT["ensembles"]]
+#: Of each dataset: ensembles have no paper preset.
+RUNS = {(m, p) for m in POOL for p in PRESETS} | {(m, p) for m in SEARCHED_POOL for p in SEARCHED}
 WITH_SPREAD = [name for name, spec in POOL.items() if spec.spread]
 PREDICTIVE = [name for name, spec in POOL.items() if spec.is_predictive]
 
@@ -47,7 +51,8 @@ def refitted_runs(house: House, dataset: str) -> set[Run]:
     results = house.work / "results"
     selection = pd.read_csv(results / "tables" / "selection.csv")
     (chosen,) = selection[(selection["dataset"] == dataset) & selection["deployed"]].itertuples()
-    wanted = {PAPERS_RUN} | ({Run(chosen.model, chosen.preset)} if POOL[chosen.model].is_cheap else set())
+    is_cheap = chosen.model in POOL and POOL[chosen.model].is_cheap
+    wanted = {PAPERS_RUN} | ({Run(chosen.model, chosen.preset)} if is_cheap else set())
     archive = read_run_archive(results / dataset / "refits.npz")
     assert {run for run, part in archive.of_runs if part == FOLDS} == wanted
     return wanted
@@ -58,7 +63,7 @@ TIMINGS = ["fit_seconds", "predict_us_per_row"]
 
 def test_point_metrics_have_a_row_for_everything(house: House) -> None:
     table = pd.read_csv(house.work / "results" / "tables" / "point_metrics.csv")
-    wanted = {(d, s, m, p) for d in DATASETS for s in SUBSETS for m in POOL for p in PRESETS}
+    wanted = {(d, s, m, p) for d in DATASETS for s in SUBSETS for m, p in RUNS}
     assert set(table[["dataset", "subset", "model", "preset"]].itertuples(index=False, name=None)) == wanted
     assert len(table) == len(wanted)
     columns = "rmse_mm,mae_mm,r2,mape_percent,rmse_informative_mm,mae_informative_mm,r2_informative,euclidean_mean_mm"
@@ -74,7 +79,7 @@ def test_selection_follows_the_score_of_its_objective(house: House, objective: s
     for dataset in DATASETS:
         scores = {
             (model, preset): read_json(house.work / "results" / dataset / model / preset / "parameters.json")[score]
-            for model in POOL
+            for model in SEARCHED_POOL
             for preset in SEARCHED
         }
         chosen = selection.loc[(dataset, objective)]
@@ -107,7 +112,7 @@ def test_interval_metrics_have_a_row_for_everything(house: House) -> None:
     keys = ["dataset", "subset", "model", "preset", "interval_method", "coordinate", "confidence_level"]
     assert not table.duplicated(keys).any()
     rows = table["interval_method"].value_counts().to_dict()
-    runs, presets = len(POOL) * len(PRESETS), len(PRESETS)
+    runs, presets = len(RUNS), len(PRESETS)
     n_runs: dict[type[CalibrationData], int] = {
         PointCalibration: runs,
         SpreadCalibration: presets * len(WITH_SPREAD),
@@ -185,9 +190,7 @@ def test_the_store_holds_a_child_run_per_model_and_preset(house: House) -> None:
         on_shells = {run for run, _ in archive.of_runs}
         assert {("gb", "paper"), ("huber", "outer")} <= on_shells
         assert len(on_shells) <= 3
-        around_models = (
-            4 * len(POOL) * 3 + (len(WITH_SPREAD) + len(PREDICTIVE)) * 3 + len(refitted_runs(house, dataset))
-        )
+        around_models = 4 * len(RUNS) + (len(WITH_SPREAD) + len(PREDICTIVE)) * 3 + len(refitted_runs(house, dataset))
         of_regressors = 2 * 2 * len(SMALL["quantile_models"])
         assert len(nested) == around_models + of_regressors + 2 * len(on_shells)
         assert {run.data.tags["mlflow.parentRunId"] for run in nested} <= {run.info.run_id for run in runs}
@@ -196,7 +199,7 @@ def test_the_store_holds_a_child_run_per_model_and_preset(house: House) -> None:
         children = [run for run in runs if run.data.tags.get("mlflow.parentRunId") == parents[0].info.run_id]
         children = [run for run in children if run.data.tags["kind"] == "model"]
         names = {(run.data.tags["model"], run.data.tags["preset"]) for run in children}
-        assert names == {(model, preset) for model in POOL for preset in PRESETS}
+        assert names == RUNS
         assert len(children) == len(names)
 
 

@@ -15,6 +15,7 @@ from softkin.data.reachability import out_of_reach, warning, with_stand_ins
 from softkin.data.split import has_standardised_norm
 from softkin.data.standins import STANDINS
 from softkin.models import MODELS
+from softkin.models.ensembles import ENSEMBLES
 from softkin.models.quantile import QUANTILE_MODELS
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from softkin.uncertainty.regions import REGION_METHODS

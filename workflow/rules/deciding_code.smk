@@ -45,6 +45,11 @@ def study_code(wildcards):
     )
 
 
+def ensemble_code(wildcards):
+    """The code that weights runs, and predicts with their mean."""
+    return code_of("fit_ensemble", module_of(ENSEMBLES[wildcards.ensemble].steps))
+
+
 def quantile_code(wildcards):
     """The code that tunes, fits and predicts with one quantile regressor."""
     return code_of(

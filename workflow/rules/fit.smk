@@ -1,6 +1,6 @@
 # in:  the table of a dataset (rows of train are searched and fitted on, commands of the others predicted)
 # out: of each preset of a model: the fitted model, the record of what it took, its predictions of every subset; of each
-#      searched preset its best parameters and all trials; and the manifest of these files
+#      searched preset its best parameters, all trials, and what it predicts of held-out rows; the manifest of these
 # One job for all presets and steps: starting one costs more than most fits. The studies themselves live in
 # results/studies: Snakemake deletes the outputs of a job that was cut off, and a study must outlive that to be resumed.
 rule fit_model:
@@ -12,6 +12,7 @@ rule fit_model:
         predictions=of_presets("predictions.parquet"),
         parameters=of_searched("parameters.json"),
         trials=of_searched("trials.csv"),
+        held_out=of_searched("held_out.npz"),
         manifest=f"results/{{dataset}}/{{model}}/{MANIFEST}",
     log:
         "results/logs/fit_model/{dataset}/{model}.log",
@@ -71,3 +72,39 @@ if config["quantile_models"] and QUANTILE_PRESETS:
             study_code=quantile_study_code,
         script:
             "../scripts/fit_quantiles.py"
+
+
+if config["ensembles"] and SEARCHED_PRESETS:
+
+    # in:  the table of a dataset (of which weights see train alone), and of each searched run of its models the fitted
+    #      model and what it predicts of held-out rows of train
+    # out: of each searched preset of an ensemble: the weighted mean of the fitted models, the record of what it took, its
+    #      predictions of every subset, its weights, and the steps to them; and the manifest of these files
+    rule fit_ensemble:
+        input:
+            table="results/{dataset}/table.parquet",
+            models=pool_manifests,
+        output:
+            models=of_ensemble("model.joblib"),
+            records=of_ensemble("fit.json"),
+            predictions=of_ensemble("predictions.parquet"),
+            parameters=of_ensemble("parameters.json"),
+            trials=of_ensemble("trials.csv"),
+            manifest=f"results/{{dataset}}/{{ensemble}}/{MANIFEST}",
+        log:
+            "results/logs/fit_ensemble/{dataset}/{ensemble}.log",
+        benchmark:
+            "results/benchmarks/fit_ensemble/{dataset}/{ensemble}.tsv"
+        conda:
+            SOFTWARE
+        threads: 1
+        params:
+            presets=SEARCHED_PRESETS,
+            runs=pool_runs,
+            robot=robot,
+            tuning=tuning("max_markers", "core_shares"),
+            objective=config["objective"],
+            seed=config["seed"],
+            code=ensemble_code,
+        script:
+            "../scripts/fit_ensemble.py"

@@ -16,15 +16,28 @@ def configured(key, dataset):
     return [name for name in config[key] if name not in out]
 
 
+def ensembles_of(dataset):
+    """The ensembles of a dataset: of searched runs, where there are some."""
+    return configured("ensembles", dataset) * bool(SEARCHED_PRESETS)
+
+
 def every_run(wildcards):
-    """[model, preset] of each run of a dataset."""
+    """[model, preset] of each run of a dataset, ensembles last."""
     models = configured("models", wildcards.dataset)
-    return [[model, preset] for model in models for preset in config["presets"]]
+    runs = [[model, preset] for model in models for preset in config["presets"]]
+    ensembles = ensembles_of(wildcards.dataset)
+    return runs + [[name, preset] for name in ensembles for preset in SEARCHED_PRESETS]
+
+
+def pool_runs(wildcards):
+    """[model, preset] of each run of a dataset whose parameters come from a study: they may be members of ensembles."""
+    models = configured("models", wildcards.dataset)
+    return [[model, preset] for model in models for preset in SEARCHED_PRESETS]
 
 
 def searched_of(dataset):
-    """[model, preset] of each run of a dataset whose parameters come from a study."""
-    models = configured("models", dataset)
+    """[model, preset] of each run of a dataset that is searched for on train, ensembles last."""
+    models = configured("models", dataset) + ensembles_of(dataset)
     return [[model, preset] for model in models for preset in SEARCHED_PRESETS]
 
 
@@ -40,8 +53,14 @@ def tuned_runs(wildcards):
 
 def manifests_of(dataset):
     """The manifests of a dataset's models: they stand for all files of the models, see src/softkin/core/manifest.py."""
-    models = configured("models", dataset)
+    models = configured("models", dataset) + ensembles_of(dataset)
     return [f"results/{dataset}/{model}/{MANIFEST}" for model in models]
+
+
+def pool_manifests(wildcards):
+    """The manifests of a dataset's models without ensembles."""
+    models = configured("models", wildcards.dataset)
+    return [f"results/{wildcards.dataset}/{model}/{MANIFEST}" for model in models]
 
 
 def model_manifests(wildcards):

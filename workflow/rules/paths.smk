@@ -41,6 +41,7 @@ SEARCHED_PRESETS = [preset for preset in config["presets"] if preset in SEARCHED
 wildcard_constraints:
     dataset="(?!(?:tables|logs|benchmarks|studies)/)[a-z][a-z0-9_]*",
     model="|".join(MODELS),
+    ensemble="|".join(ENSEMBLES),
     preset="|".join(PRESETS),
     quantile_model="|".join(QUANTILE_MODELS),
 
@@ -53,6 +54,14 @@ def of_presets(name, presets=tuple(config["presets"])):
 def of_searched(name):
     """One file of a model for each preset whose parameters come from a study."""
     return of_presets(name, SEARCHED_PRESETS)
+
+
+def of_ensemble(name):
+    """One file of an ensemble for each preset that it has, those whose parameters come from a study."""
+    return [
+        f"results/{{dataset}}/{{ensemble}}/{preset}/{name}"
+        for preset in SEARCHED_PRESETS
+    ]
 
 
 def asks_for(trait):

@@ -6,6 +6,7 @@ def timed_jobs():
             "models",
             of_presets("fit.json") + of_searched("parameters.json"),
         ),
+        "fit_ensemble": ("ensembles", of_ensemble("parameters.json")),
         "fit_quantiles": (
             "quantile_models",
             of_quantile_presets("fit.json")
@@ -20,7 +21,8 @@ def timed_jobs():
         for stage, (key, records) in per_model.items():
             for model in configured(key, dataset) * bool(records):
                 benchmark = f"results/benchmarks/{stage}/{dataset}/{model}.tsv"
-                names = {"dataset": dataset, "model": model, "quantile_model": model}
+                names = {"dataset": dataset, "model": model}
+                names |= {"ensemble": model, "quantile_model": model}
                 jobs.append(
                     ([stage, dataset, model], benchmark, expand(records, **names))
                 )

@@ -4,6 +4,7 @@ from pathlib import Path
 
 from softkin.core.job import job
 from softkin.models import MODELS
+from softkin.models.ensembles import ENSEMBLES
 from softkin.reporting.page.build import RobotFiles, build_report
 from softkin.reporting.page.jobs import Job
 from softkin.reporting.titles import Titles
@@ -25,7 +26,7 @@ with job(snakemake.log[0], "build report", snakemake.output, snakemake.input, sn
         jobs=[Job(*run, Path(benchmark), tuple(map(Path, records))) for run, benchmark, records in params.jobs],
         config=params.config,
         titles=Titles(
-            {name: spec.title for name, spec in MODELS.items()},
+            {name: spec.title for name, spec in (MODELS | ENSEMBLES).items()},
             method_titles,
         ),
         citation=Path(snakemake.scriptdir).resolve().parents[1] / "CITATION.cff",

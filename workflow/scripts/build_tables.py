@@ -5,6 +5,7 @@ from pathlib import Path
 from softkin.core.job import job
 from softkin.core.manifest import files_of_runs
 from softkin.models import MODELS
+from softkin.models.ensembles import ENSEMBLES
 from softkin.reporting.tables.build import build_tables
 from softkin.reporting.tables.frames import DatasetFiles, PublishedFiles, read_tables
 from softkin.reporting.titles import Titles
@@ -34,7 +35,7 @@ with job(snakemake.log[0], "build tables", snakemake.output, snakemake.input, sn
     build_tables(
         tables,
         titles=Titles(
-            {name: spec.title for name, spec in MODELS.items()},
+            {name: spec.title for name, spec in (MODELS | ENSEMBLES).items()},
             {name: method.title for name, method in INTERVAL_METHODS.items()},
         ),
         folder=Path(snakemake.output.headline).parent,

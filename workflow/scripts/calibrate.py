@@ -6,6 +6,7 @@ from softkin.core.job import job
 from softkin.core.manifest import files_of_runs, write_manifest
 from softkin.core.runs import Run
 from softkin.models import MODELS
+from softkin.models.ensembles import ENSEMBLES
 from softkin.training.selection import deployable_runs
 from softkin.uncertainty.build_calibrated_model import build_calibrated_model
 from softkin.uncertainty.calibrate import calibrate
@@ -38,7 +39,7 @@ with job(snakemake.log[0], f"calibrate {dataset}", written, snakemake.input, sna
             files.table,
             description=files.description,
             choice=output.choice,
-            specs=MODELS,
+            specs=MODELS | ENSEMBLES,
             methods=INTERVAL_METHODS,
             models=models,
             shells=next(iter(files.shells), None),

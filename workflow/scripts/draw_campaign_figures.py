@@ -4,6 +4,7 @@ from pathlib import Path
 
 from softkin.core.job import job
 from softkin.models import MODELS
+from softkin.models.ensembles import ENSEMBLES
 from softkin.reporting.figures import CAMPAIGN_FIGURES
 from softkin.reporting.figures.drawing import draw
 from softkin.reporting.figures.spec import CampaignResults
@@ -12,6 +13,6 @@ with job(snakemake.log[0], "draw campaign figures", snakemake.output, snakemake.
     results = CampaignResults(
         published_comparison=Path(snakemake.input.published_comparison),
         dataset_titles=snakemake.params.titles,
-        model_titles={name: spec.title for name, spec in MODELS.items()},
+        model_titles={name: spec.title for name, spec in (MODELS | ENSEMBLES).items()},
     )
     draw(CAMPAIGN_FIGURES, results, Path(snakemake.output[0]))

@@ -6,6 +6,7 @@ from softkin.core.files import read_json
 from softkin.core.job import job
 from softkin.core.manifest import files_of, files_of_runs
 from softkin.models import MODELS
+from softkin.models.ensembles import ENSEMBLES
 from softkin.models.quantile import QUANTILE_MODELS
 from softkin.reporting.figures import FIGURES
 from softkin.reporting.figures.drawing import draw
@@ -14,7 +15,7 @@ from softkin.reporting.notes import subset_notes
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 
 files, params, dataset = snakemake.input, snakemake.params, snakemake.wildcards.dataset
-specs = QUANTILE_MODELS | MODELS
+specs = QUANTILE_MODELS | MODELS | ENSEMBLES
 
 
 with job(snakemake.log[0], f"draw figures {dataset}", snakemake.output, snakemake.input, snakemake.params):

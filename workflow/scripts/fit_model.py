@@ -6,9 +6,10 @@ from softkin.core.manifest import write_manifest
 from softkin.core.runs import INTERPOLATION, OUTER, PAPER, SEARCHED, TUNED
 from softkin.models import MODELS
 from softkin.training.fit import FitFiles, fit
+from softkin.training.held_out import Robot
 from softkin.training.kinematic_model import FitSettings, searched_settings
 from softkin.training.study import TuningSettings
-from softkin.training.tune import PresetFiles, Robot, SearchSettings, tune_table
+from softkin.training.tune import PresetFiles, SearchSettings, tune_table
 
 files, params, output = snakemake.input, snakemake.params, snakemake.output
 dataset, model, tuning, threads = *snakemake.wildcards, params.tuning, snakemake.threads
@@ -16,6 +17,7 @@ spec = MODELS[model]
 searched = [preset for preset in params.presets if preset in SEARCHED]
 parameters = dict(zip(searched, output.parameters, strict=True))
 n_trials = {TUNED: tuning["n_trials"], OUTER: tuning["n_outer_trials"]}
+of_searched = (output.parameters, output.trials, output.held_out)
 of_presets = zip(params.presets, map(FitFiles, output.models, output.records, output.predictions), strict=True)
 
 
@@ -41,7 +43,7 @@ with job(snakemake.log[0], f"fit {dataset} {model}", snakemake.output, snakemake
                 tuning["core_shares"],
                 params.target_spaces,
             ),
-            files=dict(zip(searched, map(PresetFiles, params.studies, output.parameters, output.trials), strict=True)),
+            files=dict(zip(searched, map(PresetFiles, params.studies, *of_searched), strict=True)),
             code=params.study_code,
             threads=threads,
         )

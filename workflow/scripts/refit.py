@@ -4,6 +4,7 @@ from softkin.core.job import job
 from softkin.core.manifest import files_of_runs
 from softkin.core.runs import OUTER, Run
 from softkin.models import MODELS
+from softkin.training.members import all_members, members_of_runs
 from softkin.training.refit import RefittingSettings, refit
 from softkin.training.refit_shells import ShellSettings, refit_shells
 from softkin.training.refit_spaces import refit_spaces
@@ -15,9 +16,10 @@ records = files_of_runs(files.models, params.runs, "fit.json")
 parameters = files_of_runs(files.models, params.searched, "parameters.json")
 
 
-def specs(runs):
-    """The models of runs."""
-    return {run: MODELS[run.model] for run in runs}
+def fitted(runs):
+    """What is fitted for these runs, and of which fits each is the mean."""
+    weights = members_of_runs(runs, records)
+    return {"specs": {run: MODELS[run.model] for run in all_members(weights)}, "weights": weights}
 
 
 with job(snakemake.log[0], f"refit {dataset}", snakemake.output, snakemake.input, snakemake.params):
@@ -25,7 +27,7 @@ with job(snakemake.log[0], f"refit {dataset}", snakemake.output, snakemake.input
         refit(
             files.table,
             dataset=dataset,
-            specs=specs(runs_to_refit(list(records), parameters, params.objective, params.cheap_models)),
+            **fitted(runs_to_refit(list(records), parameters, params.objective, params.cheap_models)),
             records=records,
             settings=RefittingSettings(**params.refitting, seed=params.seed),
             threads=threads,
@@ -35,7 +37,7 @@ with job(snakemake.log[0], f"refit {dataset}", snakemake.output, snakemake.input
         refit_shells(
             files.table,
             dataset=dataset,
-            specs=specs(shell_runs(list(records), parameters, params.objective, params.robust_models)),
+            **fitted(shell_runs(list(records), parameters, params.objective, params.robust_models)),
             records=records,
             max_fit_rows=params.max_fit_rows,
             settings=ShellSettings(

@@ -14,6 +14,7 @@ from softkin.data.entries import problems_of_entries
 from softkin.data.readers import READERS
 from softkin.data.standins import STANDINS
 from softkin.models import MODELS
+from softkin.models.ensembles import ENSEMBLES
 from softkin.models.known_params import problems_of_paper_params
 from softkin.models.quantile import QUANTILE_MODELS
 from softkin.uncertainty.candidates import problems_of_methods
@@ -23,6 +24,7 @@ from softkin.uncertainty.regions import REGION_METHODS
 #: Registries whose names a configuration may hold, by the name that `check_configuration` knows them by.
 REGISTRIES: dict[str, Mapping[str, Any]] = {
     "models": MODELS,
+    "ensembles": ENSEMBLES,
     "formats": READERS,
     "interval_methods": INTERVAL_METHODS,
     "quantile_models": QUANTILE_MODELS,
@@ -50,7 +52,7 @@ def check(
     check_config_files(files)
     checks: list[Check] = [
         problems_of_entries,
-        partial(problems_of_methods, methods=INTERVAL_METHODS, models=MODELS),
+        partial(problems_of_methods, methods=INTERVAL_METHODS, models={**MODELS, **ENSEMBLES}),
         partial(problems_of_paper_params, models=MODELS),
         partial(_problems_of_environment, environment),
         _problems_of_results,

@@ -16,12 +16,12 @@ from softkin.core.failed_parts import PARTS
 from softkin.core.files import write_json
 
 #: What is made again of what is there. None of them writes to the store.
-OF_A_DATASET = ("refit", "calibrate", "score", "score_recorded", "draw_figures")
+OF_A_DATASET = ("fit_ensemble", "refit", "calibrate", "score", "score_recorded", "draw_figures")
 RULES = (*OF_A_DATASET, "build_tables", "draw_campaign_figures", "build_report")
 #: A job of these that has not been done leaves the tables of its dataset whole.
 AFTER_THE_TABLES = ("track",)
 #: Jobs of one entry of a key of the configuration.
-OF_ONE = {"fit_model": "models", "fit_quantiles": "quantile_models"}
+OF_ONE = {"fit_model": "models", "fit_ensemble": "ensembles", "fit_quantiles": "quantile_models"}
 #: Set while such tables are made: what is left out, as JSON, by dataset and key of the configuration.
 PARTIAL = "SOFTKIN_PARTIAL"
 

@@ -42,9 +42,9 @@ def check_configuration(
     checks: Sequence[Check] = (),
     files: Sequence[str | Path] = (),
 ) -> None:
-    """Check `config` against the YAML `schema`, the names in it against the `registries` (`models`, `formats`,
-    `interval_methods`, `regions`, `quantile_models` and `standins`), then by further `checks`. `files` are where it
-    comes from, for the message.
+    """Check `config` against the YAML `schema`, the names in it against the `registries` (`models`, `ensembles`,
+    `formats`, `interval_methods`, `regions`, `quantile_models` and `standins`), then by further `checks`. `files` are
+    where it comes from, for the message.
 
     Raises:
         ConfigError: lists every problem: the key, what is wrong, and for an unknown name its likely spelling.
@@ -104,6 +104,7 @@ def _named(
     for key, kind, registry in (
         ("datasets", "entry of config/datasets.yaml", config["sources"]),
         ("models", "model", registries["models"]),
+        ("ensembles", "ensemble", registries["ensembles"]),
         ("interval_methods", "interval method", registries["interval_methods"]),
         ("max_fit_rows", "model", registries["models"]),
         ("regions", "region", registries["regions"]),

@@ -12,8 +12,10 @@ logger = logging.getLogger("softkin")
 
 #: Keys of the configuration whose entries a dataset can do without, and what an entry is called.
 MODELS, QUANTILE_MODELS, INTERVAL_METHODS, REGIONS = ("models", "quantile_models", "interval_methods", "regions")
+ENSEMBLES = "ensembles"
 PARTS = {
     MODELS: "model",
+    ENSEMBLES: "ensemble",
     QUANTILE_MODELS: "quantile regressor",
     INTERVAL_METHODS: "interval method",
     REGIONS: "region",

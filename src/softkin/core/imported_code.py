@@ -38,6 +38,7 @@ CHOSEN_FROM = {
     "softkin.data.audit.cleaning",
     "softkin.data.readers",
     "softkin.models",
+    "softkin.models.ensembles",
     "softkin.models.quantile",
     "softkin.uncertainty.intervals",
     "softkin.uncertainty.regions",

@@ -8,10 +8,10 @@ by recalibration, which labels a few of them, and by intervals that take rows in
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 import pandas as pd
@@ -22,6 +22,7 @@ from softkin.core.metrics.interval import covered, widths, winkler_scores
 from softkin.core.metrics.point import mae_mm, rmse_mm
 from softkin.core.recording import Recording
 from softkin.core.rows import Indices
+from softkin.core.runs import Run
 from softkin.core.samples import (
     EXTRAPOLATION,
     SUBSETS,
@@ -44,6 +45,8 @@ from softkin.evaluation.recorded_names import (
     PUBLISHED,
     RECALIBRATED,
 )
+from softkin.models.estimators.memory_features import MEMORIES, NONE
+from softkin.models.estimators.weighted_mean import weighted_mean
 from softkin.models.spec import ModelSpec
 from softkin.training.kinematic_model import STATIC, FitSettings, fitted_model
 from softkin.uncertainty.conformal import around, conformal_limits, weighted_limits
@@ -56,13 +59,37 @@ N_POSES, N_DRAWS, N_FOLDS, LATER_SHARE = (5, 10, 20), 200, 5, 0.8
 
 
 @dataclass(frozen=True, slots=True)
-class RecordedRun:
-    """A run on a recording: its `spec`, `preset` and the `settings` of its fit; intervals at a `confidence_level`."""
+class Member:
+    """A member of a run: its `spec`, the `settings` of its fit, its `weight`."""
 
     spec: ModelSpec
-    preset: str
     settings: FitSettings
+    weight: float
+
+
+@dataclass(frozen=True, slots=True)
+class RecordedRun:
+    """A run on a recording, the mean of its `members`; draws are seeded, intervals at a `confidence_level`."""
+
+    run: Run
+    members: Sequence[Member]
+    seed: int
     confidence_level: float
+
+    def fitted(self, samples: Samples) -> Any:
+        """The regressor of this run, fitted on `samples`."""
+        models = [fitted_model(member.spec, member.settings, samples) for member in self.members]
+        return weighted_mean(models, [member.weight for member in self.members])
+
+    def memory(self) -> str:
+        """What the member is told that is told most of the commands before."""
+        told = [str((member.settings.memory or STATIC)["memory"]) for member in self.members]
+        return max(told, key=MEMORIES.index)
+
+    def without_memory(self) -> Self:
+        """The same run, told the command alone."""
+        static = [replace(member, settings=replace(member.settings, memory=STATIC)) for member in self.members]
+        return replace(self, members=static)
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,10 +117,8 @@ def score_recorded(table: str | Path, *, dataset: str, run: RecordedRun | None, 
     samples = {subset: read_subset(table, subset) for subset in SUBSETS}
     rows: list[dict[str, Any]] = []
     if run is not None and samples[TRAIN].recording is not None:
-        settings = {str(memory["memory"]): memory for memory in (STATIC, run.settings.memory or STATIC)}
-        for memory, told in settings.items():
-            of_memory = replace(run, settings=replace(run.settings, memory=told))
-            key = {"dataset": dataset, "model": run.spec.name, "preset": run.preset, "memory": memory}
+        for memory, of_memory in {NONE: run.without_memory(), run.memory(): run}.items():
+            key = {"dataset": dataset, "model": run.run.model, "preset": run.run.preset, "memory": memory}
             rows += [key | row for row in scored(samples, of_memory)]
     with replacing(output) as temporary:
         pd.DataFrame(rows, columns=COLUMNS).to_csv(temporary, index=False)
@@ -102,7 +127,7 @@ def score_recorded(table: str | Path, *, dataset: str, run: RecordedRun | None, 
 def scored(samples: Mapping[str, Samples], run: RecordedRun) -> Iterator[dict[str, Any]]:
     """The rows of one memory: split, subset, method and scores."""
     level = run.confidence_level
-    model = fitted_model(run.spec, run.settings, samples[TRAIN])
+    model = run.fitted(samples[TRAIN])
     moving = informative_coordinates(samples[TRAIN].positions)
     errors = {name: (rows.positions - model.predict(rows.inputs))[:, moving] for name, rows in samples.items()}
     for subset in (TEST, EXTRAPOLATION):
@@ -116,7 +141,7 @@ def scored(samples: Mapping[str, Samples], run: RecordedRun) -> Iterator[dict[st
         name = f"{new} after {'+'.join(map(str, known))}"
         of_part = part(rows.take(np.isin(session, known)), rows.take(session == new), run)
         yield from over_time(NEXT_SESSION, name, of_part, level)
-        yield from relabelled(name, of_part, level, run.settings.seed)
+        yield from relabelled(name, of_part, level, run.seed)
 
 
 def next_sessions(sessions: list[int]) -> list[tuple[list[int], int]]:
@@ -138,8 +163,8 @@ def in_time(parts: list[Samples]) -> Samples:
 
 def part(before: Samples, after: Samples, run: RecordedRun) -> Part:
     """Errors of the model fitted on rows before, on those held out of them and on the rows after."""
-    fitted_rows, held_out = folds_of(before, N_FOLDS, run.settings.seed)[0]
-    model = fitted_model(run.spec, run.settings, before.take(fitted_rows))
+    fitted_rows, held_out = folds_of(before, N_FOLDS, run.seed)[0]
+    model = run.fitted(before.take(fitted_rows))
     moving = informative_coordinates(before.positions)
     known, new = (
         (rows.positions - model.predict(rows.inputs))[:, moving] for rows in (before.take(np.sort(held_out)), after)

@@ -15,13 +15,13 @@ from softkin.core.files import replacing
 from softkin.core.samples import SUBSETS, TEST, TRAIN, Array, Samples, coordinate_columns
 from softkin.core.threads import limited_threads
 from softkin.data.table import read_subset
-from softkin.models.spec import ModelSpec
+from softkin.models.spec import PointModel
 
 #: Prefixes of the columns of a model's spread: of a predictive standard deviation, and of any other.
 STANDARD_DEVIATION, SPREAD = "std_", "spread_"
 
 
-def spread_of(spec: ModelSpec, estimator: Any, train: Samples, inputs: Array) -> Array:
+def spread_of(spec: PointModel, estimator: Any, train: Samples, inputs: Array) -> Array:
     """Spread (n_rows, n_coordinates) in mm of a fitted kinematic model at `inputs`."""
     assert spec.spread is not None
     model, known, added = estimator.resolved(train.inputs)
@@ -35,7 +35,7 @@ def spread_of(spec: ModelSpec, estimator: Any, train: Samples, inputs: Array) ->
 def predict(
     table: str | Path,
     *,
-    spec: ModelSpec,
+    spec: PointModel,
     estimator: Any,
     threads: int,
     predictions: str | Path,

@@ -21,6 +21,7 @@ from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, Array
 from softkin.data.table import read_subset
 from softkin.models.spec import ModelSpec
 from softkin.training.kinematic_model import fitted_model, recorded_settings
+from softkin.training.members import Weights, combined
 
 logger = logging.getLogger("softkin")
 
@@ -51,6 +52,7 @@ def refit(
     settings: RefittingSettings,
     threads: int,
     refits: str | Path,
+    weights: Mapping[Run, Weights] | None = None,
 ) -> None:
     """Write what the refits of each run predict of train, test and extrapolation, rows in this order.
 
@@ -66,6 +68,7 @@ def refit(
         settings: folds, bootstrap samples and seed.
         threads: threads of a fit at most.
         refits: path of the archive (`RunArchive`).
+        weights: the runs that are written, each the weighted mean of these `specs`; None: all of `specs`.
     """
     train = read_subset(table, TRAIN)
     everywhere = np.concatenate([read_subset(table, subset).inputs for subset in (TRAIN, TEST, EXTRAPOLATION)])
@@ -98,7 +101,7 @@ def refit(
             predictions[run, part] = np.stack(predicted)
         logger.info("%d of %d models refitted: %s", place + 1, len(specs), " ".join(run))
     shared = {FOLD_OF_ROW: fold_of_row, RESAMPLE_ROWS: np.stack(resamples), CPU_SECONDS: np.array(cpu_seconds)}
-    RunArchive(shared, predictions).write(refits)
+    RunArchive(shared, predictions if weights is None else combined(predictions, weights)).write(refits)
 
 
 def drawn_resamples(n_rows: int, settings: RefittingSettings) -> list[NDArray[np.intp]]:

@@ -21,6 +21,7 @@ from softkin.core.shells import Shells, command_norm, outer_shells
 from softkin.data.table import read_subset
 from softkin.models.spec import ModelSpec
 from softkin.training.kinematic_model import fitted_model, recorded_settings, some_rows
+from softkin.training.members import Weights, combined
 
 logger = logging.getLogger("softkin")
 
@@ -64,6 +65,7 @@ def refit_shells(
     max_fit_rows: Mapping[str, int],
     settings: ShellSettings,
     shells: str | Path,
+    weights: Mapping[Run, Weights] | None = None,
 ) -> None:
     """Write what the refit of each run on each core predicts of the shell around the core.
 
@@ -80,6 +82,7 @@ def refit_shells(
         max_fit_rows: rows of a fit at most, by model; a model that is missing takes any number.
         settings: cores, seed and threads.
         shells: path of the archive (`RunArchive`).
+        weights: the runs that are written, each the weighted mean of these `specs`; None: all of `specs`.
     """
     train = read_subset(table, TRAIN)
     new = np.concatenate([read_subset(table, subset).commands for subset in (TEST, EXTRAPOLATION)])
@@ -102,7 +105,8 @@ def refit_shells(
             cpu_seconds += watch.cpu_seconds
             predictions[run, str(place)] = np.asarray(model.predict(train.take(shell).inputs))
         logger.info("refitted on %d cores: %s", len(parts), " ".join(run))
-    RunArchive({**shared, CPU_SECONDS: np.array(cpu_seconds)}, predictions).write(shells)
+    written = predictions if weights is None else combined(predictions, weights)
+    RunArchive({**shared, CPU_SECONDS: np.array(cpu_seconds)}, written).write(shells)
 
 
 def cores_and_shells(norms: Array, farthest: float, core_shares: Sequence[float]) -> Shells:

@@ -15,7 +15,7 @@ from softkin.core.run_archive import read_run_archive
 from softkin.core.runs import Run
 from softkin.core.samples import TRAIN, VALIDATION
 from softkin.data.table import content_hash, read_subset
-from softkin.models.spec import ModelSpec
+from softkin.models.spec import PointModel
 from softkin.uncertainty.calibrated import FittedModel, calibrated
 from softkin.uncertainty.choose import deployed_choice
 from softkin.uncertainty.intervals.spec import AUTO, IntervalMethod
@@ -27,7 +27,7 @@ def build_calibrated_model(
     *,
     description: str | Path,
     choice: str | Path,
-    specs: Mapping[str, ModelSpec],
+    specs: Mapping[str, PointModel],
     methods: Mapping[str, IntervalMethod[Any]],
     models: Mapping[Run, str | Path],
     shells: str | Path | None,

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from softkin.core.samples import Array, Samples, informative_coordinates
-from softkin.models.spec import ModelSpec
+from softkin.models.spec import PointModel
 from softkin.training.predict import spread_of
 from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.calibration_data import Shell
@@ -23,7 +23,7 @@ class FittedModel:
     """A fitted point model: its entry in the registry, preset, estimator, and the rows of `train`."""
 
     dataset: str
-    spec: ModelSpec
+    spec: PointModel
     preset: str
     estimator: Any
     train: Samples

@@ -12,7 +12,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from softkin.core.samples import Array, Samples, informative_coordinates
-from softkin.models.spec import ModelSpec
+from softkin.models.spec import PointModel
 from softkin.training.predict import spread_of
 from softkin.uncertainty import calls
 from softkin.uncertainty.alarm import Watch
@@ -63,7 +63,7 @@ class CalibratedModel:
     """
 
     dataset: str
-    spec: ModelSpec
+    spec: PointModel
     preset: str
     method: IntervalMethod[Any]
     estimator: Any

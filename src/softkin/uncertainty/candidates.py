@@ -5,18 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from softkin.core.runs import PAPER, TUNED
-from softkin.models.spec import ModelSpec
+from softkin.core.runs import PAPER, SEARCHED, TUNED
+from softkin.models.spec import PointModel
 from softkin.uncertainty.calibration_data import PredictiveCalibration
 from softkin.uncertainty.intervals.spec import MARGINAL, IntervalMethod
 
 
 def problems_of_methods(
-    config: Mapping[str, Any], methods: Mapping[str, IntervalMethod[Any]], models: Mapping[str, ModelSpec]
+    config: Mapping[str, Any], methods: Mapping[str, IntervalMethod[Any]], models: Mapping[str, PointModel]
 ) -> Iterator[str]:
     """Why no calibrated model could be made of the configured `interval_methods`, and methods that have no data."""
     configured = [methods[name] for name in config["interval_methods"]]
-    pool = [models[name] for name in config["models"]]
+    ensembles = config["ensembles"] if set(SEARCHED) & set(config["presets"]) else []
+    pool = [models[name] for name in [*config["models"], *ensembles]]
     if not any(_can_be_deployed(method, pool) for method in configured):
         yield (
             f"interval_methods: of {', '.join(config['interval_methods'])} none is calibrated around every model, so "
@@ -30,7 +31,7 @@ def problems_of_methods(
         )
 
 
-def _can_be_deployed(method: IntervalMethod[Any], pool: list[ModelSpec]) -> bool:
+def _can_be_deployed(method: IntervalMethod[Any], pool: list[PointModel]) -> bool:
     """Whether a calibrated model can hold the method, whichever model of the pool is deployed."""
     kind = method.calibrated_on
     if method.guarantee != MARGINAL or kind.is_for_extrapolation or not kind.is_around_a_model:

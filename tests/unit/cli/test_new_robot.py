@@ -17,6 +17,7 @@ from softkin.core.configuration import check_configuration
 from softkin.data.readers import READERS
 from softkin.data.standins import STANDINS
 from softkin.models import MODELS
+from softkin.models.ensembles import ENSEMBLES
 from softkin.models.quantile import QUANTILE_MODELS
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from softkin.uncertainty.regions import REGION_METHODS
@@ -58,7 +59,12 @@ def test_write_appends_and_keeps_every_letter_before(house: Path, capsys: pytest
     assert after.startswith(before)
     assert yaml.safe_load(after)["sources"] == yaml.safe_load(before)["sources"] | {"my_arm": entry}
     config = yaml.safe_load((house / "config" / "config.yaml").read_text()) | yaml.safe_load(after)
-    registries: dict[str, Any] = {"models": MODELS, "formats": READERS, "interval_methods": INTERVAL_METHODS}
+    registries: dict[str, Any] = {
+        "models": MODELS,
+        "ensembles": ENSEMBLES,
+        "formats": READERS,
+        "interval_methods": INTERVAL_METHODS,
+    }
     registries |= {"quantile_models": QUANTILE_MODELS, "regions": REGION_METHODS, "standins": STANDINS}
     schema = HOUSE / "workflow" / "schemas" / "config.schema.yaml"
     check_configuration(config | {"datasets": ["my_arm"]}, schema, registries)

@@ -12,6 +12,7 @@ from softkin.core.errors import ConfigError
 from softkin.data.readers import READERS
 from softkin.data.standins import STANDINS
 from softkin.models import MODELS
+from softkin.models.ensembles import ENSEMBLES
 from softkin.models.quantile import QUANTILE_MODELS
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from softkin.uncertainty.regions import REGION_METHODS
@@ -24,7 +25,7 @@ for name in ("config", "datasets"):
 
 
 def check(config: dict[str, Any]) -> None:
-    registries: dict[str, Any] = {"models": MODELS, "formats": READERS}
+    registries: dict[str, Any] = {"models": MODELS, "ensembles": ENSEMBLES, "formats": READERS}
     registries |= {"interval_methods": INTERVAL_METHODS, "quantile_models": QUANTILE_MODELS}
     registries |= {"regions": REGION_METHODS, "standins": STANDINS}
     check_configuration(config, SCHEMA, registries)

@@ -8,10 +8,11 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from softkin.core.runs import Run
 from softkin.core.samples import SUBSETS, Samples
 from softkin.data.table import to_table, write_table
 from softkin.evaluation.recorded_names import COLUMNS
-from softkin.evaluation.score_recorded import RecordedRun, in_time, next_sessions, score_recorded
+from softkin.evaluation.score_recorded import Member, RecordedRun, in_time, next_sessions, score_recorded
 from softkin.models import MODELS
 from softkin.training.kinematic_model import FitSettings
 from tests.conftest import four_subsets
@@ -31,7 +32,7 @@ def subsets(rows: Samples) -> dict[str, Samples]:
 def scores(samples: dict[str, Samples], folder: Path) -> pd.DataFrame:
     write_table(to_table(samples), folder / "table.parquet")
     settings = FitSettings(GP, True, 0, 1, memory={"memory": "play", "widths": "all", "zeros": True})
-    run = RecordedRun(MODELS["gp"], "tuned", settings, 0.9)
+    run = RecordedRun(Run("gp", "tuned"), [Member(MODELS["gp"], settings, 1.0)], 0, 0.9)
     score_recorded(folder / "table.parquet", dataset="arm", run=run, output=folder / "recorded.csv")
     return pd.read_csv(folder / "recorded.csv")
 

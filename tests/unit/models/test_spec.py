@@ -17,7 +17,15 @@ def minimal() -> ModelSpec:
     def build(params: Params, *_: int) -> LinearRegression:
         return LinearRegression(**params)
 
-    return ModelSpec("mean", "Mean", "linear", build, {}, lambda _: {}, ({},))
+    return ModelSpec(
+        name="mean",
+        title="Mean",
+        family="linear",
+        build=build,
+        paper_params={},
+        search_space=lambda _: {},
+        first_trials=({},),
+    )
 
 
 def test_a_model_need_not_have_a_spread_and_is_neither_cheap_nor_robust_by_default() -> None:

@@ -15,9 +15,10 @@ from softkin.core.runs import OUTER, TUNED
 from softkin.core.samples import Samples
 from softkin.data.table import to_table, write_table
 from softkin.models import MODELS
+from softkin.training.held_out import Robot
 from softkin.training.memory_space import drawn_memory, first_memories, simplest, taken_memory
 from softkin.training.study import TuningResult, TuningSettings
-from softkin.training.tune import PresetFiles, Robot, SearchSettings, tune_table
+from softkin.training.tune import PresetFiles, SearchSettings, tune_table
 from tests.recorded_robot import recorded_arm
 
 FIRST = [{"C": 1.0}, {"C": 2.0}, {"C": 3.0}]
@@ -62,7 +63,8 @@ def test_a_memory_must_be_worth_it() -> None:
 def chosen(rows: Samples, folder: Path) -> tuple[dict[str, Any], float]:
     table = folder / "table.parquet"
     write_table(to_table({"train": rows}), table)
-    files = {p: PresetFiles(folder / f"{p}.journal", folder / f"{p}.json", folder / f"{p}.csv") for p in (TUNED, OUTER)}
+    endings = ("journal", "json", "csv", "npz")
+    files = {p: PresetFiles(*(folder / f"{p}.{ending}" for ending in endings)) for p in (TUNED, OUTER)}
     tune_table(
         table,
         spec=MODELS["gp"],

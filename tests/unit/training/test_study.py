@@ -25,6 +25,7 @@ from softkin.core.imported_code import code_hash
 from softkin.core.runs import TUNED
 from softkin.core.samples import Params
 from softkin.models import MODELS
+from softkin.training.held_out import Robot
 from softkin.training.study import (
     KEPT_PERCENT,
     STARTUP_TRIALS,
@@ -37,7 +38,7 @@ from softkin.training.study import (
     record,
     run_study,
 )
-from softkin.training.tune import Robot, SearchSettings, tune_model
+from softkin.training.tune import SearchSettings, tune_model
 from tests.conftest import bending_arm
 
 SETTINGS = TuningSettings(n_trials=8, n_folds=3, max_rows=60, seed=3)

@@ -7,51 +7,21 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from softkin.core.errors import DataError
 from softkin.core.files import read_json
-from softkin.core.folds import grouped_folds
 from softkin.core.runs import OUTER, TUNED
 from softkin.core.samples import Samples
 from softkin.data.table import to_table, write_table
 from softkin.models import MODELS
+from softkin.training.held_out import SCORES, Robot, read_held_out
 from softkin.training.selection import OBJECTIVES, deployed, searched_runs, selection
 from softkin.training.study import TuningResult, TuningSettings
-from softkin.training.tune import (
-    PresetFiles,
-    Robot,
-    SearchSettings,
-    other_space,
-    part_errors,
-    possible_spaces,
-    some_markers,
-    tune_table,
-)
+from softkin.training.tune import PresetFiles, SearchSettings, other_space, possible_spaces, tune_table
 from tests.conftest import bending_arm
 
 ROBOT = Robot(base=None, standardised_norm=False)
 SPACES = ["cartesian", "curvature"]
-
-
-def test_copies_of_a_command_do_not_lower_the_error_of_a_model_that_memorises() -> None:
-    """40 copies of each command, as in the paper's ELASTICA: ungrouped folds would report no error at all."""
-    few = bending_arm(15)
-    rows = replace(few, commands=np.tile(few.commands, (40, 1)), positions=np.tile(few.positions, (40, 1)))
-    folds = grouped_folds(rows.commands, 3, 0)
-    deep = {"n_estimators": 20, "bootstrap": False, "target_space": "cartesian"}
-    assert np.mean(list(part_errors(MODELS["rf"], deep, rows, folds, ROBOT, 0, 1))) > 1.0
-
-
-@given(st.integers(1, 5), st.integers(1, 9))
-def test_a_study_sees_some_markers_the_last_and_all_that_never_move(max_markers: int, n_markers: int) -> None:
-    positions = np.arange(4.0)[:, None] * np.repeat(np.r_[0.0, 1.0 + np.arange(n_markers)], 3) + 1.0
-    kept = some_markers(Samples(np.zeros((4, 2)), positions), max_markers).positions
-    assert kept.shape[1] == 3 + 3 * min(max_markers, n_markers)
-    assert np.ptp(kept[:, :3]) == 0
-    np.testing.assert_array_equal(kept[:, -3:], positions[:, -3:])
-    assert (np.diff(kept[-1, ::3]) > 0).all()
 
 
 def two_link_arm(n: int, seed: int = 0) -> Samples:
@@ -67,7 +37,8 @@ def tuned(samples: Samples, model: str, folder: Path, n_trials: int = 8) -> dict
     table = folder / "table.parquet"
     write_table(to_table(dict.fromkeys(("train", "validation", "test", "extrapolation"), samples)), table)
     presets = (TUNED, OUTER)
-    files = {p: PresetFiles(folder / f"{p}.journal", folder / f"{p}.json", folder / f"{p}.csv") for p in presets}
+    endings = ("journal", "json", "csv", "npz")
+    files = {preset: PresetFiles(*(folder / f"{preset}.{ending}" for ending in endings)) for preset in presets}
     tune_table(
         table,
         spec=MODELS[model],
@@ -80,6 +51,9 @@ def tuned(samples: Samples, model: str, folder: Path, n_trials: int = 8) -> dict
     )
     for preset in presets:
         assert len(pd.read_csv(files[preset].trials)) == n_trials
+        best = read_json(files[preset].parameters)
+        scored = {by for by, score in SCORES.items() if best[score] is not None}
+        assert set(read_held_out(files[preset].held_out)) == scored
     return {preset: read_json(files[preset].parameters) for preset in presets}
 
 
@@ -130,20 +104,6 @@ def test_a_space_that_does_not_hold_the_robot_is_left_out_and_an_empty_choice_is
     assert possible_spaces(behind, SPACES, declared) == ["cartesian"]
     with pytest.raises(DataError, match=r"(?s)4 positions lie at the base or straight behind it.*declare `base`"):
         possible_spaces(behind, ["curvature"], declared)
-
-
-def test_a_part_that_the_target_space_does_not_hold_has_an_infinite_error_and_is_the_last() -> None:
-    rows = bending_arm(40)
-    behind = rows.positions.copy()
-    behind[5] *= [0.0, 0.0, -1.0]
-    samples = Samples(rows.commands, behind)
-    parts = [(np.arange(10, 40), np.arange(10)), (np.arange(30), np.arange(30, 40)), (np.arange(10, 40), np.arange(10))]
-    robot = Robot(base={"origin": [0.0, 0.0, 0.0], "axis": [0.0, 0.0, 1.0]}, standardised_norm=False)
-    errors = list(part_errors(MODELS["lr"], {"degree": 1, "target_space": "curvature"}, samples, parts, robot, 0, 1))
-    assert len(errors) == 2
-    assert np.isfinite(errors[0])
-    assert errors[1] == np.inf
-    assert len(list(part_errors(MODELS["lr"], {"target_space": "cartesian"}, samples, parts, robot, 0, 1))) == 3
 
 
 def test_the_other_space_is_that_of_the_best_trial_in_another_one() -> None:

@@ -11,7 +11,7 @@ WITHOUT = next(name for name, spec in MODELS.items() if spec.spread is None)
 
 
 def problems(methods: list[str], models: list[str], presets: tuple[str, ...] = ("paper", "tuned", "outer")) -> int:
-    config = {"interval_methods": methods, "models": models, "presets": presets}
+    config = {"interval_methods": methods, "models": models, "ensembles": [], "presets": presets}
     return len(list(problems_of_methods(config, INTERVAL_METHODS, MODELS)))
 
 

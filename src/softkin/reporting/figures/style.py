@@ -11,6 +11,7 @@ import numpy as np
 from softkin.core.escaping import figure_text
 from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, VALIDATION
 from softkin.models import MODELS
+from softkin.models.ensembles import ENSEMBLES
 from softkin.models.quantile import QUANTILE_MODELS
 from softkin.reporting.figures.sampling import sample_notes
 from softkin.reporting.figures.spec import DatasetResults
@@ -37,7 +38,7 @@ MODEL_MARKS = "os^DvPX*<>h"
 #: (colour, mark) by the place in the registries, whatever is configured: the same in every figure of every run.
 LOOKS = {
     name: (MODEL_COLOURS[place % len(MODEL_COLOURS)], MODEL_MARKS[place % len(MODEL_MARKS)])
-    for place, name in enumerate(dict.fromkeys([*MODELS, *QUANTILE_MODELS]))
+    for place, name in enumerate(dict.fromkeys([*MODELS, *QUANTILE_MODELS, *ENSEMBLES]))
 }
 
 #: Smaller errors (mm) are drawn here on a logarithmic axis: some models repeat their training rows exactly.
