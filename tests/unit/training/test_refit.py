@@ -62,6 +62,28 @@ def test_each_refit_is_the_model_on_its_rows(table: Path, tmp_path: Path) -> Non
             np.testing.assert_allclose(predicted, expected, atol=1e-8)
 
 
+def test_an_ensemble_is_the_weighted_mean_of_the_refits_of_its_members(table: Path, tmp_path: Path) -> None:
+    alone = refitted(table, tmp_path)
+    static = {"params": {"degree": 2}, "skip_constant": False, "target_space": "cartesian", "base": None}
+    write_json(tmp_path / "square.json", static | {"memory": None})
+    square, mean = Run("lr", "outer"), Run("ensemble", "outer")
+    refit(
+        table,
+        dataset="arm",
+        specs=dict.fromkeys((RUN, square), MODELS["lr"]),
+        records={RUN: tmp_path / "fit.json", square: tmp_path / "square.json"},
+        settings=SETTINGS,
+        threads=1,
+        refits=tmp_path / "refits.npz",
+        weights={mean: {RUN: 0.25, square: 0.75}, square: {square: 1.0}},
+    )
+    archive = read_run_archive(tmp_path / "refits.npz")
+    assert {run for run, _ in archive.of_runs} == {mean, square}, "a member that nobody asked for is not written"
+    for part in (FOLDS, RESAMPLES):
+        expected = 0.25 * alone.of_runs[RUN, part] + 0.75 * archive.of_runs[square, part]
+        np.testing.assert_allclose(archive.of_runs[mean, part], expected, atol=1e-9)
+
+
 def test_every_row_is_held_out_of_one_fold_and_of_some_sample(table: Path, tmp_path: Path) -> None:
     rows = fitted_rows(refitted(table, tmp_path))
     n = len(read_subset(table, "train"))

@@ -71,6 +71,24 @@ def test_each_core_is_fitted_on_its_rows_and_judged_on_its_shell(table: Path, tm
     assert archive.shared[CPU_SECONDS] > 0
 
 
+def test_an_ensemble_is_the_weighted_mean_of_its_members_on_each_shell(table: Path, tmp_path: Path) -> None:
+    alone, mean = refitted(table, tmp_path), Run("ensemble", "outer")
+    refit_shells(
+        table,
+        dataset="arm",
+        specs={RUN: MODELS["lr"]},
+        records={RUN: tmp_path / "fit.json"},
+        max_fit_rows={},
+        settings=SETTINGS,
+        shells=tmp_path / "shells.npz",
+        weights={mean: {RUN: 1.0}},
+    )
+    archive = read_run_archive(tmp_path / "shells.npz")
+    assert archive.of_runs.keys() == {(mean, place) for _, place in alone.of_runs}
+    for (_, place), predicted in archive.of_runs.items():
+        np.testing.assert_array_equal(predicted, alone.of_runs[RUN, place])
+
+
 def test_the_norm_is_that_of_standardised_commands_where_the_dataset_has_that(table: Path, tmp_path: Path) -> None:
     archive = refitted(table, tmp_path, replace(SETTINGS, standardised_norm=True))
     commands = read_subset(table, "train").commands

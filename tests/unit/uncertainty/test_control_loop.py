@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from dataclasses import replace
 from typing import Any
 
@@ -10,6 +11,8 @@ import pytest
 
 from softkin.core.errors import DataError
 from softkin.models import MODELS
+from softkin.models.ensembles import ENSEMBLES
+from softkin.models.estimators.weighted_mean import weighted_mean
 from softkin.training.kinematic_model import FitSettings, fitted_model
 from softkin.uncertainty.calibrated import FittedModel, calibrated
 from softkin.uncertainty.calibrated_model import CalibratedModel
@@ -42,6 +45,29 @@ def test_a_loop_a_sequence_and_a_recording_say_the_same(robot: CalibratedModel) 
     np.testing.assert_allclose([step.lower for step in steps], bounds[..., 0])
     np.testing.assert_allclose([step.upper for step in steps], bounds[..., 1])
     assert np.abs(followed - first.positions).mean() < 0.3 < np.abs(robot.predict(first.commands) - followed).mean()
+
+
+def test_an_ensemble_is_followed_like_any_model(robot: CalibratedModel) -> None:
+    """Of a model that is told of play and one that is told nothing; stored and loaded."""
+    line = fitted_model(
+        MODELS["lr"], FitSettings({}, True, 0, 1, memory={"memory": "none", "zeros": True}), robot.train
+    )
+    mean = weighted_mean([robot.estimator, line], [0.75, 0.25])
+    held_out = ROWS.take(np.arange(0, 466, 4))
+    model = FittedModel("arm", ENSEMBLES["ensemble"], "outer", mean, robot.train)
+    both = pickle.loads(pickle.dumps(calibrated(model, INTERVAL_METHODS["scp_crepes"], held_out)))
+    first = ROWS.take(np.arange(30))
+    followed = both.follow(first.commands, session=1)
+    np.testing.assert_allclose(
+        followed, 0.75 * robot.follow(first.commands, session=1) + 0.25 * line.predict(first.inputs)
+    )
+    state = both.start(session=1)
+    np.testing.assert_allclose([state.step(command).position for command in first.commands], followed)
+    assert "Ensemble (outer)" in repr(both)
+    known, unknown = (both.start(session=session).step(first.commands[0]) for session in (1, None))
+    assert (unknown.upper - unknown.lower)[0] > (known.upper - known.lower)[0]
+    moved = both.recalibrate(first.commands[:20], both.follow(first.commands[:20]) + 2.0)
+    assert moved.recalibration.zero[0] == pytest.approx(2.0, abs=0.2)
 
 
 def test_a_session_never_seen_is_wider_until_it_is_recalibrated(robot: CalibratedModel) -> None:

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from softkin.core.samples import Array
 
 #: Runs that are added, each as often as it helps; different ones at most, which bounds the time of a prediction.
-N_STEPS, MOST_MEMBERS = 30, 5
+N_STEPS, MOST_MEMBERS = 10, 5
 
 
 def steps(predicted: Array, truth: Array, shares: Array) -> Array:
