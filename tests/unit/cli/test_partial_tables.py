@@ -6,6 +6,7 @@ import json
 import os
 import subprocess
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -17,12 +18,14 @@ from softkin.core.files import read_json
 CONFIG: dict[str, Any] = {
     "datasets": ["arm", "finger", "trunk"],
     "models": ["lr", "gp"],
+    "ensembles": ["ensemble"],
     "quantile_models": ["gb"],
     "interval_methods": ["qr", "scp_mapie", "auto"],
     "regions": ["joint_box"],
 }
 GP = Undone("fit_model", "finger", "fit_model gp", failed=True, parts=[("models", "gp")])
-WAITS = [Undone(rule, "finger", rule, failed=False) for rule in ("refit", "calibrate", "score", "track")]
+MEAN = Undone("fit_ensemble", "finger", "fit_ensemble ensemble", failed=False, parts=[("ensembles", "ensemble")])
+WAITS = [MEAN, *(Undone(rule, "finger", rule, failed=False) for rule in ("refit", "calibrate", "score", "track"))]
 TABLES = Undone("build_tables", "", "build_tables", failed=False)
 
 
@@ -31,6 +34,7 @@ def planned(*undone: Undone, left_out: Mapping[str, LeftOut] | None = None, **co
 
 
 def test_a_dataset_does_without_a_model_that_failed_and_it_is_named() -> None:
+    """An ensemble, which waited for all models, is made of the others."""
     partial = planned(GP, *WAITS, TABLES)
     assert partial is not None
     assert partial.datasets == CONFIG["datasets"]
@@ -60,6 +64,13 @@ def test_a_dataset_is_left_out_where_nobody_knows_what_it_could_do_without(rule:
     assert partial.datasets == ["arm", "trunk"]
     assert partial.left_out == {}
     assert partial.missing == f"Incomplete: without finger ({', '.join(sorted([rule, 'fit_model gp']))} failed)."
+
+
+def test_a_dataset_does_without_an_ensemble_that_failed() -> None:
+    partial = planned(replace(MEAN, failed=True), *WAITS[1:], TABLES)
+    assert partial is not None
+    assert partial.left_out == {"finger": {"ensembles": ["ensemble"]}}
+    assert partial.missing == "Incomplete: without the ensemble ensemble on finger (fit_ensemble ensemble failed)."
 
 
 def test_a_dataset_is_left_out_where_no_model_or_no_method_is_left() -> None:
