@@ -192,9 +192,10 @@ bad-inputs-page: .venv/installed-dev
 faults-page: .venv/installed-dev
 	$(BIN)/python -m tools.faults_page
 
-# docs/results.md, its gallery with it, from a finished run of the default configuration.
+# docs/results.md, its gallery with it, and docs/claims.md, from a finished run of the default configuration.
 results-page: .venv/installed
 	$(BIN)/python -m tools.results_page
+	$(BIN)/python -m tools.claims_page
 	$(BIN)/python -m tools.gallery
 
 # The picture of the MLflow UI in the README, docs/mlflow_ui.png, from the store of a finished run.

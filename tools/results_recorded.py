@@ -14,9 +14,9 @@ HEADER = ["Robot", "Split", "Rows", "Memory", "Interval", "Labelled poses", "RMS
 
 
 def robots_in_time(run: FinishedRun) -> dict[str, Any]:
-    """Scores in time, and the claims that they decide; empty tables where no robot is recorded."""
-    files = {name: run.results / "tables" / f"{name}.csv" for name in ("recorded", "claims")}
-    recorded, claims = (pd.read_csv(file) if file.is_file() else pd.DataFrame() for file in files.values())
+    """Scores in time; an empty table where no robot is recorded."""
+    file = run.results / "tables" / "recorded.csv"
+    recorded = pd.read_csv(file) if file.is_file() else pd.DataFrame()
     rows = [
         [
             *(run.name(row.dataset), SPLITS[row.split], row.subset, row.memory, row.method),
@@ -25,8 +25,4 @@ def robots_in_time(run: FinishedRun) -> dict[str, Any]:
         ]
         for row in recorded.itertuples()
     ]
-    sentences = [
-        f'*{run.name(row.dataset)}*: "{row.claim}" ({row.source}) **{row.verdict}**: {row.numbers}.'
-        for row in claims.itertuples()
-    ]
-    return {"recorded": table(HEADER, rows) if rows else "", "claims": "\n\n".join(sentences)}
+    return {"recorded": table(HEADER, rows) if rows else ""}

@@ -51,7 +51,16 @@ def campaign(tmp_path_factory: pytest.TempPathFactory) -> CampaignResults:
     ]
     path = tmp_path_factory.mktemp("campaign") / "comparison.csv"
     pd.DataFrame(rows).to_csv(path, index=False)
-    return CampaignResults(path, {"arm": "ARM"}, {"gb": "Gradient boosting", "gp": "Gaussian process"})
+    curves = [
+        {"dataset": "arm", "model": model, "preset": preset, "share": share, "n_rows": 100 * share}
+        | {"rmse_mm": (2.0 if model == "gp" else 1.0) / share, "leak": False}
+        for model in ("gb", "gp")
+        for preset in ("paper", "tuned")
+        for share in (0.05, 0.25, 1.0)
+    ]
+    pd.DataFrame(curves).to_csv(path.with_name("curves.csv"), index=False)
+    titles = {"gb": "Gradient boosting", "gp": "Gaussian process"}
+    return CampaignResults(path, {"arm": "ARM"}, titles, path.with_name("curves.csv"))
 
 
 def files_of(results: Results) -> list[Path]:

@@ -67,18 +67,9 @@ def test_robots_in_time_have_a_section_of_their_own(results: Path, page: str) ->
     }
     recorded |= {"mean_width_mm": 2.0, "winkler_mm": 3.0, "n_recalibration_poses": 5, "leak": False}
     pd.DataFrame([recorded]).to_csv(results / "tables" / "recorded.csv", index=False)
-    claim = {
-        "claim": "no memory",
-        "source": "the paper",
-        "dataset": "finger",
-        "verdict": "does not hold",
-        "numbers": "1",
-    }
-    pd.DataFrame([claim]).to_csv(results / "tables" / "claims.csv", index=False)
     make_results_page(results, results.parent / "results.md")
     page = (results.parent / "results.md").read_text()
     assert "| FINGER | next session | 2 after 1 | play | recalibrated | 5 | 0.500 / 0.250 | 90.0 % | 2.00 |" in page
-    assert '*FINGER*: "no memory" (the paper) **does not hold**: 1.' in page
 
 
 def test_intervals_stand_beside_the_papers_recipe_and_say_their_role(page: str) -> None:

@@ -40,11 +40,12 @@ rule draw_figures:
         "../scripts/draw_figures.py"
 
 
-# in:  the paper's printed cells beside ours
+# in:  the paper's printed cells beside ours, and learning curves
 # out: a folder of the figures across datasets
 rule draw_campaign_figures:
     input:
         published_comparison="results/tables/published_comparison.csv",
+        learning_curve=["results/tables/learning_curve.csv"] * bool(LEARNING),
     output:
         directory("results/tables/figures"),
     log:

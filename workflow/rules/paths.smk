@@ -1,9 +1,17 @@
 # Names of runs and paths of files: what the configuration spans, and what more than one stage needs.
 from softkin.core.manifest import MANIFEST
 from softkin.core.runs import OUTER, PAPER, PRESETS, SEARCHED, TUNED
+from softkin.models.paper_groups import NETWORK, ONE_OF_EACH_KIND
 
 # The datasets that know when their rows were recorded.
 RECORDED = [name for name in config["datasets"] if is_recorded(config["sources"][name])]
+# Published datasets, and the models whose learning curves decide what the paper says of the data that a network needs.
+LEARNING_MODELS = [name for name in ONE_OF_EACH_KIND if name in config["models"]]
+LEARNING = [
+    name
+    for name in config["datasets"]
+    if "urls" in config["sources"][name] and name not in RECORDED
+] * (NETWORK in LEARNING_MODELS)
 HEADLINE = "results/tables/headline.txt"
 REPORT = "results/report.html"
 # To be pasted into a paper.
@@ -24,7 +32,10 @@ TABLES = [
     "published_comparison.csv",
     "published_intervals.csv",
     *(["published_columns.csv"] if TUNED in config["presets"] else []),
-    *(["recorded.csv", "claims.csv"] if RECORDED else []),
+    "left_out.csv",
+    "claims.csv",
+    *(["recorded.csv"] if RECORDED else []),
+    *(["learning_curve.csv"] if LEARNING else []),
     *(
         ["selection.csv", "searched_runs.csv"]
         if set(SEARCHED) & set(config["presets"])

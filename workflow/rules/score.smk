@@ -1,8 +1,8 @@
 # in:  the predictions of all models of a dataset, the intervals of all methods, what they were made from, the truth;
 #      the calibrated model, for its joint intervals
 # out: the dataset's rows of the point metrics, of the errors per marker and in either target space; of the interval
-#      metrics, conditional coverage and rates of alarm; and of the intervals in extrapolation, labelled methods among
-#      them, each beside the oracle
+#      metrics, conditional coverage and rates of alarm; of the intervals in extrapolation, labelled methods among them,
+#      each beside the oracle; and of scores with a single row left out
 rule score:
     input:
         **STORED_OUTPUTS,
@@ -19,6 +19,7 @@ rule score:
         conditional="results/{dataset}/conditional_coverage.csv",
         alarms="results/{dataset}/alarm_rates.csv",
         extrapolation="results/{dataset}/extrapolation_intervals.csv",
+        left_out="results/{dataset}/left_out.csv",
     log:
         "results/logs/score/{dataset}.log",
     benchmark:
@@ -38,3 +39,30 @@ rule score:
         code=code_of("score", *region_modules()),
     script:
         "../scripts/score.py"
+
+
+if LEARNING:
+
+    # in:  the table of a published dataset, and what its nonlinear models were fitted with
+    # out: their errors on test when they are fitted to a part of train
+    rule learning_curve:
+        input:
+            table="results/{dataset}/table.parquet",
+            models=model_manifests,
+        output:
+            "results/{dataset}/learning_curve.csv",
+        log:
+            "results/logs/learning_curve/{dataset}.log",
+        benchmark:
+            "results/benchmarks/learning_curve/{dataset}.tsv"
+        priority: 30
+        conda:
+            SOFTWARE
+        threads: 1
+        params:
+            runs=every_run,
+            shown=LEARNING_MODELS,
+            seed=config["seed"],
+            code=code_of("learning_curve"),
+        script:
+            "../scripts/learning_curve.py"

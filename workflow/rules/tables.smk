@@ -10,10 +10,12 @@ rule build_tables:
         alarms=of_every_dataset("results/{dataset}/alarm_rates.csv"),
         extrapolation=of_every_dataset("results/{dataset}/extrapolation_intervals.csv"),
         spaces=of_every_dataset("results/{dataset}/target_spaces.csv"),
+        left_out=of_every_dataset("results/{dataset}/left_out.csv"),
         description=of_every_dataset("results/{dataset}/dataset.json"),
         data_card=of_every_dataset("results/{dataset}/data_card.json"),
         models=[file for name in config["datasets"] for file in manifests_of(name)],
         recorded=expand("results/{dataset}/recorded.csv", dataset=RECORDED),
+        learning=expand("results/{dataset}/learning_curve.csv", dataset=LEARNING),
     output:
         headline=report(
             HEADLINE,

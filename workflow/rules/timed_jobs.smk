@@ -33,4 +33,7 @@ def timed_jobs():
     for dataset in RECORDED:
         benchmark = f"results/benchmarks/score_recorded/{dataset}.tsv"
         jobs.append((["score_recorded", dataset, ""], benchmark, []))
+    for dataset in LEARNING:
+        benchmark = f"results/benchmarks/learning_curve/{dataset}.tsv"
+        jobs.append((["learning_curve", dataset, ""], benchmark, []))
     return jobs

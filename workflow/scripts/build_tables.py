@@ -13,7 +13,7 @@ from softkin.uncertainty.intervals import INTERVAL_METHODS
 
 files, params = snakemake.input, snakemake.params
 published = Path(snakemake.scriptdir).resolve().parents[1] / "resources" / "published"
-kinds = ("point", "markers", "intervals", "choice", "conditional", "alarms", "extrapolation", "spaces")
+kinds = ("point", "markers", "intervals", "choice", "conditional", "alarms", "extrapolation", "spaces", "left_out")
 by_dataset = zip(*(files[kind] for kind in (*kinds, "description", "data_card")), strict=True)
 manifests = {dataset: [file for file in files.models if Path(file).parts[-3] == dataset] for dataset in params.sources}
 parameters = {
@@ -28,8 +28,12 @@ with job(snakemake.log[0], "build tables", snakemake.output, snakemake.input, sn
         parameters=parameters,
         objective=params.objective,
         recorded=files.recorded,
+        learning=files.learning,
         published=PublishedFiles(
-            *(published / f"{name}.csv" for name in ("point_metrics", "subsets", "interval_metrics"))
+            *(
+                published / f"{name}.csv"
+                for name in ("point_metrics", "subsets", "interval_metrics", "approaches", "improvements")
+            )
         ),
     )
     build_tables(

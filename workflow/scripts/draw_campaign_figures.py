@@ -13,6 +13,7 @@ with job(snakemake.log[0], "draw campaign figures", snakemake.output, snakemake.
     results = CampaignResults(
         published_comparison=Path(snakemake.input.published_comparison),
         dataset_titles=snakemake.params.titles,
+        learning_curve=next(map(Path, snakemake.input.learning_curve), None),
         model_titles={name: spec.title for name, spec in (MODELS | ENSEMBLES).items()},
     )
     draw(CAMPAIGN_FIGURES, results, Path(snakemake.output[0]))

@@ -10,6 +10,7 @@ from softkin.evaluation.conditional_coverage import conditional_coverage
 from softkin.evaluation.score_extrapolation import ExtrapolationMethods, score_extrapolation
 from softkin.evaluation.score_intervals import score_intervals
 from softkin.evaluation.score_joint import joint_rows
+from softkin.evaluation.score_left_out import score_left_out
 from softkin.evaluation.score_points import score_points, score_spaces
 from softkin.evaluation.score_regions import score_alarms
 from softkin.training.selection import shell_runs
@@ -73,6 +74,15 @@ def coverage():
         confidence_levels=params.confidence_levels,
         seed=params.seed,
         output=output.conditional,
+    )
+    score_left_out(
+        files.table,
+        dataset=dataset,
+        predictions=predictions,
+        intervals=in_domain,
+        shown=shown_runs(files.choice),
+        confidence_levels=params.confidence_levels,
+        output=output.left_out,
     )
     truth = {subset: read_subset(files.table, subset).positions for subset in SUBSETS}
     score_alarms(outputs, truth, dataset=dataset, seed=params.seed, output=output.alarms)

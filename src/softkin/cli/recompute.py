@@ -29,6 +29,7 @@ COLLECTED = (
     "alarm_rates",
     "extrapolation_intervals",
     "target_spaces",
+    "left_out",
 )
 #: What a row of the interval metrics is about.
 KEY = ["interval_method", "model", "preset", "subset", "coordinate", "confidence_level"]

@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 
 from softkin.core.files import replacing
-from softkin.core.metrics.point import mae_mm, rmse_mm
+from softkin.core.metrics.point import paper_metrics
 from softkin.core.rows import sampled_rows
 from softkin.core.runs import Run
 from softkin.core.samples import TEST, TRAIN, Samples, coordinate_columns
@@ -21,7 +21,8 @@ from softkin.training.kinematic_model import FitSettings, fitted_model
 
 #: Shares of `train`, and how many parts of that size are drawn; the run itself was fitted to all of it.
 DRAWS = {0.05: 1, 0.1: 2, 0.25: 1}
-COLUMNS = ["dataset", "subset", "model", "preset", "share", "n_rows", "n_draws", "rmse_mm", "mae_mm"]
+ERRORS = ["rmse_mm", "mae_mm"]
+COLUMNS = ["dataset", "subset", "model", "preset", "share", "n_rows", "n_draws", *ERRORS]
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,8 +54,8 @@ def learning_curve(table: str | Path, *, dataset: str, runs: Mapping[Run, Fitted
         columns = coordinate_columns(test.positions.shape[1] // 3)
         stored = pd.read_parquet(fitted.predictions)
         predicted = np.asarray(stored.loc[stored["subset"] == TEST, columns], dtype=np.float64)
-        errors = {"rmse_mm": rmse_mm(test.positions, predicted), "mae_mm": mae_mm(test.positions, predicted)}
-        rows.append(key | {"share": 1.0, "n_rows": len(train), "n_draws": 1} | errors)
+        scores = paper_metrics(test.positions, predicted)
+        rows.append(key | {"share": 1.0, "n_rows": len(train), "n_draws": 1} | {name: scores[name] for name in ERRORS})
     with replacing(output) as temporary:
         pd.DataFrame(rows, columns=COLUMNS).to_csv(temporary, index=False)
 
@@ -65,6 +66,6 @@ def _of_parts(fitted: FittedRun, train: Samples, test: Samples) -> Iterator[dict
         for draw in range(n_draws):
             part = train.take(sampled_rows(len(train), n_rows, fitted.settings.seed + draw))
             predicted = fitted_model(fitted.spec, fitted.settings, part).predict(test.inputs)
-            errors.append((rmse_mm(test.positions, predicted), mae_mm(test.positions, predicted)))
-        rmse, mae = np.mean(errors, axis=0)
-        yield {"share": share, "n_rows": n_rows, "n_draws": n_draws, "rmse_mm": rmse, "mae_mm": mae}
+            errors.append(paper_metrics(test.positions, predicted))
+        means = {name: np.mean([of[name] for of in errors]) for name in ERRORS}
+        yield {"share": share, "n_rows": n_rows, "n_draws": n_draws} | means

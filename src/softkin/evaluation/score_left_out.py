@@ -18,9 +18,17 @@ from softkin.core.metrics.left_out import (
     r2_without_each_coordinate,
     without_each_row,
 )
-from softkin.core.metrics.point import point_metrics
+from softkin.core.metrics.point import paper_metrics, point_metrics
 from softkin.core.runs import Run, nearest_level
-from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, Array, coordinate_columns, informative_coordinates
+from softkin.core.samples import (
+    EXTRAPOLATION,
+    TEST,
+    TRAIN,
+    Array,
+    coordinate_columns,
+    informative_coordinates,
+    measured_coordinates,
+)
 from softkin.data.table import read_subset
 
 COLUMNS = ["dataset", "subset", "left_out", "model", "preset", "interval_method", "metric", "value", "without"]
@@ -124,11 +132,10 @@ def _rows(numbers: Numbers) -> Iterator[dict[str, Any]]:
 
 
 def _coordinates(run: Run, true: Array, predicted: Array) -> Iterator[dict[str, Any]]:
-    """R2 without each coordinate, where there are others."""
-    if true.shape[1] < 2:
-        return
-    without = r2_without_each_coordinate(true, predicted)
+    """R2 without each coordinate that is measured."""
+    measured = measured_coordinates(true)
+    without = r2_without_each_coordinate(true[:, measured], predicted[:, measured])
     key = {"model": run.model, "preset": run.preset, "interval_method": "", "metric": "r2"}
-    value = point_metrics(true, predicted, np.ones(true.shape[1], dtype=bool))["r2"]
-    for name, moved in zip(coordinate_columns(true.shape[1] // 3), without, strict=True):
+    value = paper_metrics(true, predicted)["r2"]
+    for name, moved in zip(np.array(coordinate_columns(true.shape[1] // 3))[measured], without, strict=True):
         yield {"left_out": name, **key, "value": value, "without": float(moved)}

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 from sklearn.metrics import r2_score
 
 from softkin.core.metrics.point import euclidean_errors
-from softkin.core.samples import Array
+from softkin.core.samples import Array, measured_coordinates
 
 
 def without_each_row(values: Array) -> Array:
@@ -23,7 +23,7 @@ def without_each_row(values: Array) -> Array:
 
 def point_metrics_without_each_row(true: Array, predicted: Array, informative: NDArray[np.bool_]) -> dict[str, Array]:
     """RMSE, MAE and mean Euclidean error as in point_metrics.csv, each (n_rows,), with that row left out; mm."""
-    errors = predicted - true
+    errors = (predicted - true)[:, measured_coordinates(true)]
     markers = informative.reshape(-1, 3).any(axis=1)
     return {
         "rmse_mm": np.sqrt(without_each_row(np.square(errors))).mean(axis=1),

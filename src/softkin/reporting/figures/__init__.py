@@ -10,6 +10,7 @@ from softkin.reporting.figures import (
     extrapolation,
     importance,
     intervals,
+    learning_curve,
     position_curves,
     published,
     ranking,
@@ -49,4 +50,5 @@ FIGURES: dict[str, FigureSpec[DatasetResults]] = {
 #: Across datasets.
 CAMPAIGN_FIGURES: dict[str, FigureSpec[CampaignResults]] = {
     "published": published.FIGURE,
+    "learning_curve": learning_curve.FIGURE,
 }

@@ -43,11 +43,14 @@ class DatasetResults:
 
 @dataclass(frozen=True, slots=True)
 class CampaignResults:
-    """Paths of the results across datasets; `dataset_titles` and `model_titles` are by name."""
+    """Paths of the results across datasets; `dataset_titles` and `model_titles` are by name. `learning_curve` is None
+    where there are none.
+    """
 
     published_comparison: Path
     dataset_titles: Mapping[str, str]
     model_titles: Mapping[str, str]
+    learning_curve: Path | None = None
 
 
 Results = TypeVar("Results")

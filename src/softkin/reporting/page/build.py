@@ -17,6 +17,7 @@ from softkin.core.files import read_json, write_text
 from softkin.reporting.page import published
 from softkin.reporting.page.cards import card_page
 from softkin.reporting.page.choices import read_choices
+from softkin.reporting.page.claims import claims_grid
 from softkin.reporting.page.extrapolation import extrapolation_grid, searched_grid, spaces_grid
 from softkin.reporting.page.grid import Grid
 from softkin.reporting.page.headline import robot_cards
@@ -24,7 +25,7 @@ from softkin.reporting.page.images import Folder, albums
 from softkin.reporting.page.jobs import Job, duration, measured, slowest_grid
 from softkin.reporting.page.marks import Marks, kinds
 from softkin.reporting.page.provenance import data_grid, what_was_run
-from softkin.reporting.page.recorded import claims_grid, recorded_grid
+from softkin.reporting.page.recorded import recorded_grid
 from softkin.reporting.page.scores import choice_grid, interval_grid, point_grid
 from softkin.reporting.tables.published import summary
 from softkin.reporting.titles import Titles
@@ -133,15 +134,13 @@ def _scores(frames: Mapping[str, pd.DataFrame], titles: Titles, marks: Marks) ->
 
 def _published(frames: Mapping[str, pd.DataFrame], titles: Titles, marks: Marks) -> list[Grid]:
     """The comparisons that have rows: there are none of datasets that the paper has no table of."""
-    grids = []
+    grids = [claims_grid(frames["claims"])] if len(frames.get("claims", ())) else []
     if len(frames.get("published_columns", ())):
         grids.append(published.best_grid(frames["published_columns"], titles, marks))
     if len(frames["published_comparison"]):
         grids.append(published.cells_grid(frames["published_comparison"], titles, marks))
     if len(frames["published_intervals"]):
         grids.append(published.intervals_grid(frames["published_intervals"], titles, marks))
-    if len(frames.get("claims", ())):
-        grids.append(claims_grid(frames["claims"]))
     return grids
 
 

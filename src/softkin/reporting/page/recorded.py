@@ -1,4 +1,4 @@
-"""The tables of robots in time: scores from session to session, and claims of the paper with their verdicts."""
+"""The table of robots in time: scores from session to session."""
 
 from __future__ import annotations
 
@@ -6,9 +6,8 @@ import pandas as pd
 
 from softkin.core.samples import SUBSETS
 from softkin.evaluation.recorded_names import LATER, NEXT_SESSION, PUBLISHED
-from softkin.reporting.page.grid import Cell, Column, Grid, filtered_columns, number, number_columns, share
+from softkin.reporting.page.grid import Cell, Grid, filtered_columns, number, number_columns, share
 from softkin.reporting.page.marks import Marks
-from softkin.reporting.tables.claims import HOLDS
 from softkin.reporting.titles import Titles
 
 #: What the splits are called.
@@ -40,17 +39,3 @@ def recorded_grid(recorded: pd.DataFrame, titles: Titles, marks: Marks) -> Grid:
         *number_columns("RMSE, mm", "MAE, mm", "Coverage", "Width, mm", "Winkler, mm"),
     ]
     return Grid("recorded", "In time", sentence, shown, rows, "tables/recorded.csv")
-
-
-def claims_grid(claims: pd.DataFrame) -> Grid:
-    """One row per claim and dataset."""
-    rows = [
-        [
-            *(Cell(row.claim), Cell(row.dataset)),
-            Cell(row.verdict, verdict="reproduced" if row.verdict == HOLDS else "worse"),
-            Cell(row.numbers),
-        ]
-        for row in claims.itertuples()
-    ]
-    shown = [Column("Claim", is_wide=True), Column("Robot"), Column("Verdict"), Column("Numbers", is_wide=True)]
-    return Grid("claims", "Claims", "What the paper says, and what this run finds.", shown, rows, "tables/claims.csv")

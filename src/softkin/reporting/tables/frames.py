@@ -37,17 +37,22 @@ class DatasetFiles:
     alarms: str | Path
     extrapolation: str | Path
     spaces: str | Path
+    left_out: str | Path
     description: str | Path
     data_card: str | Path
 
 
 @dataclass(frozen=True, slots=True)
 class PublishedFiles:
-    """What the paper printed (CSV): cells of its point metrics, sizes of its subsets, cells of its Table 6."""
+    """What the paper printed (CSV): cells of its point metrics, sizes of its subsets, cells of its Table 6, grades of
+    its Table 1, improvements that it states.
+    """
 
     point: str | Path
     subsets: str | Path
     intervals: str | Path
+    approaches: str | Path
+    improvements: str | Path
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,9 +80,11 @@ def read_tables(
     objective: str,
     published: PublishedFiles,
     recorded: Sequence[str | Path] = (),
+    learning: Sequence[str | Path] = (),
 ) -> Tables:
     """The tables of a run. There is no published_columns without tuned models, and no selection and searched_runs where
-    nothing was searched; recorded and claims where a dataset is recorded.
+    nothing was searched; recorded where a dataset is recorded, learning_curve where there are any. Without a published
+    dataset `claims` has no rows.
 
     Parameters:
         datasets: dataset -> files, in the order of the configuration.
@@ -86,6 +93,7 @@ def read_tables(
         objective: what the deployed models are chosen for.
         published: what the paper printed.
         recorded: files of scores in time, of the recorded datasets.
+        learning: files of learning curves.
     """
     files = list(datasets.values())
     descriptions = [read_json(paths.description) for paths in files]
@@ -110,6 +118,7 @@ def read_tables(
             _concatenated(paths.extrapolation for paths in files), leaks, calibrated=True
         ),
         "target_spaces": marked(_concatenated(paths.spaces for paths in files), leaks),
+        "left_out": _left_out(files),
     }
     if f"{TUNED}_value" in cells:
         frames["published_columns"] = compare_columns(cells, point)
@@ -118,8 +127,17 @@ def read_tables(
         frames |= {"selection": selection(searched, objective), "searched_runs": runs_with_errors(searched, point)}
     if recorded:
         frames["recorded"] = marked(_concatenated(recorded), leaks)
-        frames["claims"] = claims(frames["recorded"], descriptions, cards)
-    return Tables(frames, sources, descriptions, cards, notes, pd.read_csv(published.subsets))
+    if learning:
+        frames["learning_curve"] = marked(_concatenated(learning), leaks)
+    printed = {name: pd.read_csv(getattr(published, name)) for name in ("subsets", "approaches", "improvements")}
+    frames["claims"] = claims(frames, printed, descriptions, cards)
+    return Tables(frames, sources, descriptions, cards, notes, printed["subsets"])
+
+
+def _left_out(files: Sequence[DatasetFiles]) -> pd.DataFrame:
+    """Scores with one row or coordinate left out; those of point models have no method, which is no missing number."""
+    frames = [pd.read_csv(paths.left_out, dtype={"interval_method": str}) for paths in files]
+    return pd.concat(frames, ignore_index=True).fillna({"interval_method": ""})
 
 
 def _concatenated(paths: Iterable[str | Path]) -> pd.DataFrame:

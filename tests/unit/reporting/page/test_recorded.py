@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import pandas as pd
-
-from softkin.reporting.page.recorded import claims_grid, recorded_grid
+from softkin.reporting.page.recorded import recorded_grid
 from tests.unit.reporting.page.frames import NO_MARKS, TITLES, recorded, texts
 
 
@@ -16,11 +14,3 @@ def test_each_score_in_time_has_its_row() -> None:
         *("0.530", "0.420", "85.0 %", "1.50", "2.20"),
     ]
     assert {row[1].text for row in grid.rows} == {"as published", "next session"}
-
-
-def test_a_claim_has_its_verdict_as_a_badge() -> None:
-    row = {"claim": "it is so", "source": "the paper", "dataset": "finger", "numbers": "some"}
-    table = pd.DataFrame([row | {"verdict": "does not hold"}, row | {"verdict": "not contradicted"}])
-    rows = claims_grid(table).rows
-    assert texts(rows[0]) == ["it is so", "finger", "does not hold", "some"]
-    assert [row[2].verdict for row in rows] == ["worse", "reproduced"]

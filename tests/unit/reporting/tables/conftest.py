@@ -22,7 +22,7 @@ SOURCES: dict[str, dict[str, Any]] = {
 RUNS = (("gb", "paper", 2.0), ("gb", "tuned", 1.0), ("lr", "paper", 4.0), ("lr", "tuned", 3.0))
 LEAK = {"severity": "leak", "subsets": ["test"], "sentence": "All rows stand in train.", "consequence": "No test."}
 PUBLISHED = HOUSE / "resources" / "published"
-CSV = ("point", "markers", "intervals", "choice", "conditional", "alarms", "extrapolation", "spaces")
+CSV = ("point", "markers", "intervals", "choice", "conditional", "alarms", "extrapolation", "spaces", "left_out")
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,10 @@ class Run:
 
     def tables(self, searched: bool = True) -> Tables:
         published = PublishedFiles(
-            *(PUBLISHED / f"{name}.csv" for name in ("point_metrics", "subsets", "interval_metrics"))
+            *(
+                PUBLISHED / f"{name}.csv"
+                for name in ("point_metrics", "subsets", "interval_metrics", "approaches", "improvements")
+            )
         )
         return read_tables(
             self.datasets,
@@ -58,6 +61,7 @@ def _intervals(dataset: str) -> list[dict[str, Any]]:
     return [
         {"dataset": dataset, "subset": subset, "model": model, "preset": preset, "interval_method": method}
         | {"coordinate": coordinate, "confidence_level": 0.9, "guarantee": "marginal"}
+        | {"coverage_low": 0.8, "coverage_high": 0.95, "coverage_p_value_holm": 0.5}
         | {"coverage": 0.91, "mean_width_mm": 2.0 * error, "winkler_mm": 3.0 * error}
         | {"winkler_without_gross_mm": 2.5 * error, "n_commands": 12 if dataset == "arm" else 40}
         for model, preset, error in RUNS
@@ -65,6 +69,12 @@ def _intervals(dataset: str) -> list[dict[str, Any]]:
         for subset in ("test", "extrapolation")
         for coordinate in ("m1_x", "mean_informative")
     ]
+
+
+def _left_out(dataset: str) -> list[dict[str, Any]]:
+    """One row sets the error of a run on test."""
+    row = {"dataset": dataset, "subset": "test", "left_out": "row 3", "model": "gb", "preset": "tuned"}
+    return [row | {"interval_method": "", "metric": "rmse_mm", "value": 1.0, "without": 0.1}]
 
 
 def _choice() -> list[dict[str, Any]]:
@@ -83,13 +93,20 @@ def write_dataset(folder: Path, dataset: str) -> DatasetFiles:
         "intervals": _intervals(dataset),
         "choice": _choice(),
         "alarms": [{"dataset": dataset, "alpha": 0.1}],
+        "left_out": _left_out(dataset),
     }
     for name, table in rows.items():
         pd.DataFrame(table).to_csv(folder / f"{name}.csv", index=False)
     is_arm = dataset == "arm"
-    description = {"dataset": dataset, "title": SOURCES[dataset]["title"], "is_cut": is_arm, "n_commands": 2}
+    description = {
+        "dataset": dataset,
+        "origin": "own" if is_arm else "published",
+        "title": SOURCES[dataset]["title"],
+        "is_cut": is_arm,
+        "n_commands": 2,
+    }
     write_json(folder / "dataset.json", description | {"n_markers": 1, "rows": dict.fromkeys(SUBSETS, 40)})
-    card = {"dataset": dataset, "is_leaking": is_arm, "findings": [LEAK] if is_arm else []}
+    card = {"dataset": dataset, "is_leaking": is_arm, "findings": [LEAK] if is_arm else [], "checks": {}}
     write_json(folder / "data_card.json", card)
     names = (*(f"{name}.csv" for name in CSV), "dataset.json", "data_card.json")
     return DatasetFiles(*(folder / name for name in names))

@@ -8,6 +8,7 @@ from tests.unit.reporting.tables.conftest import SOURCES, Run
 ALWAYS = {
     *("point_metrics", "marker_errors", "interval_metrics", "interval_choice", "conditional_coverage", "alarm_rates"),
     *("extrapolation_intervals", "target_spaces", "published_comparison", "published_intervals"),
+    *("left_out", "claims"),
 }
 
 
@@ -31,7 +32,7 @@ def test_without_tuned_models_no_column_is_compared(run: Run) -> None:
 
 def test_rows_that_leak_are_marked_in_every_table_of_scores(run: Run) -> None:
     frames = run.tables().frames
-    for name in ALWAYS - {"published_comparison", "published_intervals"}:
+    for name in ALWAYS - {"published_comparison", "published_intervals", "left_out", "claims"}:
         frame = frames[name]
         is_test = frame["subset"] == "test" if "subset" in frame else True
         assert frame["leak"].equals((frame["dataset"] == "arm") & is_test), name
@@ -57,3 +58,9 @@ def test_the_selection_is_by_the_scores_on_train(run: Run) -> None:
     selection = run.tables().frames["selection"]
     assert set(selection["model"]) == {"gb"}
     assert selection.loc[selection["deployed"], "objective"].tolist() == ["both", "both"]
+
+
+def test_a_score_of_a_point_model_with_a_row_left_out_has_no_method(run: Run) -> None:
+    frames = run.tables().frames
+    assert frames["left_out"]["interval_method"].tolist() == ["", ""]
+    assert "would take" in frames["claims"]["numbers"].iloc[0]  # two models are not the paper's eight
