@@ -75,6 +75,23 @@ def of_few_calibration_rows() -> Robot:
     return robot | {VALIDATION: Samples(robot[VALIDATION].commands[:5], robot[VALIDATION].positions[:5])}
 
 
+def of_one_calibration_block() -> Robot:
+    robot = clean()
+    return robot | {VALIDATION: replace(robot[VALIDATION], block=np.zeros(len(robot[VALIDATION]), dtype=np.int64))}
+
+
+def that_is_read_wrongly() -> Robot:
+    """A command is twice another; the markers of some rows are swapped; every command has two poses."""
+    robot = {}
+    for name, rows in clean_robot(300, n_commands=2, n_markers=4, seed=3).items():
+        points = rows.positions.reshape(len(rows), 4, 3).copy()
+        points[::5] = points[::5, [1, 0, 2, 3]]
+        commands = np.column_stack([rows.commands, 2 * rows.commands[:, :1]])
+        commands, positions = np.vstack([commands, commands]), points.reshape(len(rows), 12)
+        robot[name] = Samples(commands, np.vstack([positions, positions + 20.0]))
+    return robot
+
+
 def that_remembers() -> Robot:
     rows = recorded_arm(300, backlash=0.05)
     return {subset: rows.take(np.arange(place, 300, 4)) for place, subset in enumerate(SUBSETS)}
@@ -87,6 +104,8 @@ FAULTS = (
     that_hardly_moves,
     with_failed_poses,
     of_shifted_subsets,
+    of_one_calibration_block,
+    that_is_read_wrongly,
     that_remembers,
 )
 

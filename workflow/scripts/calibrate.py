@@ -12,6 +12,7 @@ from softkin.uncertainty.build_calibrated_model import build_calibrated_model
 from softkin.uncertainty.calibrate import calibrate
 from softkin.uncertainty.choose import choose, deployed_choice
 from softkin.uncertainty.intervals import INTERVAL_METHODS
+from softkin.uncertainty.promise import promised_methods
 from softkin.uncertainty.stored_outputs import stored_outputs
 
 files, params, output, dataset = snakemake.input, snakemake.params, snakemake.output, snakemake.wildcards.dataset
@@ -27,10 +28,11 @@ with job(snakemake.log[0], f"calibrate {dataset}", written, snakemake.input, sna
     candidates = deployable_runs(list(models), parameters, params.objective)
     choose(outputs, methods=methods, runs=candidates, seed=params.seed, regime=params.regime, choice=output.choice)
     best = deployed_choice(output.choice)
-    in_domain = {} if best is None else {Run(best["model"], best["preset"]): methods[best["interval_method"]]}
+    calibrating = promised_methods(methods, outputs.promise)
+    in_domain = {} if best is None else {Run(best["model"], best["preset"]): calibrating[best["interval_method"]]}
     calibrate(
         outputs,
-        methods=methods,
+        methods=calibrating,
         in_domain=in_domain,
         intervals=intervals,
     )

@@ -1,6 +1,6 @@
 """Questions that a robot's table raises, for a person to answer, and why columns are left out of its entry.
 
-- A marker that is a turned, shifted or converted copy of another is that marker in another frame or unit: which of the two is it?
+- A marker that is a turned, shifted or converted copy of another is in another frame or unit: which of the two is it?
 - Columns of positions that are called desired, reference or target beside measured ones: are they commands, or nothing?
 """
 

@@ -35,12 +35,14 @@ MAX_MAGNITUDE = 1e100
 class Samples:
     """Rows of one subset: `commands` (n_rows, n_commands), `positions` (n_rows, n_coordinates) in mm.
 
-    `recording` says when they were measured, where the dataset knows it.
+    `recording` says when they were measured, where the dataset knows it. `block` (n_rows,) numbers what was split as a
+    whole, a stretch of time or a group, where that was not each row for itself: rows of one block are alike.
     """
 
     commands: Array
     positions: Array
     recording: Recording | None = None
+    block: NDArray[np.int64] | None = None
 
     def __len__(self) -> int:
         return len(self.commands)
@@ -55,7 +57,10 @@ class Samples:
     def take(self, rows: NDArray[Any] | slice) -> Self:
         """Some of the rows."""
         recording = None if self.recording is None else self.recording.take(rows)
-        return replace(self, commands=self.commands[rows], positions=self.positions[rows], recording=recording)
+        block = None if self.block is None else self.block[rows]
+        return replace(
+            self, commands=self.commands[rows], positions=self.positions[rows], recording=recording, block=block
+        )
 
 
 def command_columns(n_commands: int) -> list[str]:

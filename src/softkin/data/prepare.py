@@ -82,7 +82,7 @@ def prepare(
     _warn_of_implausible_range(samples[TRAIN], source, where)
     frame = to_table(samples)
     n_commands, n_markers = samples[TRAIN].commands.shape[1], samples[TRAIN].positions.shape[1] // 3
-    schema(n_commands, n_markers, recorded is not None).validate(frame)
+    schema(n_commands, n_markers, recorded is not None, samples[TRAIN].block is not None).validate(frame)
     write_table(frame, table)
     about: dict[str, Any] = {
         "dataset": dataset,

@@ -2,8 +2,9 @@
 
 The methods `random`, `group` and `time` first form groups of rows that must stay together. The outer groups, by
 standardised command norm, become `extrapolation`; the others are drawn at random: 80 % of their rows for `train`, 10 %
-for `validation`, 10 % for `test`. The method `column` takes the subsets from a column of the file. The methods
-`session` and `later` split a recording by time, see `split_in_time`.
+for `validation`, 10 % for `test`; of groups and stretches more for `validation`, since intervals count these. The
+method `column` takes the subsets from a column of the file. The methods `session` and `later` split a recording by
+time, see `split_in_time`.
 """
 
 from __future__ import annotations
@@ -23,7 +24,9 @@ Codes = NDArray[np.int64]
 
 INNER_SHARES = {TRAIN: 0.8, VALIDATION: 0.1, TEST: 0.1}
 EXTRAPOLATION_SHARE = 0.3
-BLOCKS = 50
+#: Stretches of time, where the entry names no number. Of stretches or groups so many are `validation`, but at most such
+#: a share of those in-domain: intervals count blocks, and 95 % needs 19 (`make benchmark-promises`).
+BLOCKS, CALIBRATION_BLOCKS, MOST_CALIBRATED = 100, 19, 0.3
 #: How a subset may be spelt in a file that names it, where the entry says nothing else.
 SPELLINGS = {subset: subset for subset in SUBSETS} | {"val": VALIDATION, "ext": EXTRAPOLATION}
 
@@ -99,7 +102,8 @@ def wanted_shares(options: Mapping[str, Any]) -> dict[str, float]:
     if options["method"] in ("column", "session"):
         return {}
     outer = options.get("extrapolation_share", EXTRAPOLATION_SHARE)
-    return {subset: (1 - outer) * share for subset, share in INNER_SHARES.items()} | {EXTRAPOLATION: outer}
+    inner = INNER_SHARES if options["method"] in ("random", "later") else {TEST: INNER_SHARES[TEST]}
+    return {subset: (1 - outer) * share for subset, share in inner.items()} | {EXTRAPOLATION: outer}
 
 
 def _named_subsets(options: Mapping[str, Any], column: NDArray[Any] | None, place: Callable[[int], str]) -> Codes:
@@ -156,6 +160,8 @@ def _drawn_subsets(options: Mapping[str, Any], groups: Codes, norms: Array) -> C
     filled = np.cumsum(sizes[drawn])
     first = _nearest(filled, INNER_SHARES[TRAIN], low=1, high=cut - 2)
     second = _nearest(filled, INNER_SHARES[TRAIN] + INNER_SHARES[VALIDATION], low=first + 1, high=cut - 1)
+    if options["method"] != "random":
+        first = max(1, min(first, second - min(CALIBRATION_BLOCKS, int(MOST_CALIBRATED * cut))))
     for subset, part in ((TRAIN, drawn[:first]), (VALIDATION, drawn[first:second]), (TEST, drawn[second:])):
         subset_of[part] = SUBSETS.index(subset)
     return np.asarray(subset_of[groups])

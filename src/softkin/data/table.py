@@ -1,7 +1,7 @@
 """The tidy table of a dataset: one Parquet file with columns subset, u1, ..., m1_x, ... (mm).
 
 A table that says when its rows were recorded has more columns before the positions: order, session, and what the robot
-may remember of the commands before (`softkin.core.recording`).
+may remember of the commands before (`softkin.core.recording`); one that was split by blocks, the number of each.
 
 A stage names the one subset that it may see; no other row is read from the disk.
 """
@@ -25,9 +25,11 @@ if TYPE_CHECKING:
     import pandera.pandas as pandera
 
 
-def schema(n_commands: int, n_markers: int, is_recorded: bool = False) -> pandera.DataFrameSchema:
+def schema(
+    n_commands: int, n_markers: int, is_recorded: bool = False, has_blocks: bool = False
+) -> pandera.DataFrameSchema:
     """The schema of a tidy table: these columns in this order, finite 64-bit floats, the names of the four subsets;
-    where it is recorded an order without repetition, and sessions from 1.
+    where it is recorded an order without repetition, and sessions from 1; where it has blocks their numbers from 0.
     """
     import pandera.pandas as pa
 
@@ -37,6 +39,8 @@ def schema(n_commands: int, n_markers: int, is_recorded: bool = False) -> pander
     if is_recorded:
         columns |= {"order": pa.Column(int, unique=True), "session": pa.Column(int, pa.Check.ge(1))}
         columns |= dict.fromkeys(memory_columns(n_commands), number)
+    if has_blocks:
+        columns |= {"block": pa.Column(int, pa.Check.ge(0))}
     columns |= dict.fromkeys(coordinate_columns(n_markers), number)
     return pa.DataFrameSchema(columns, strict=True, ordered=True)
 
@@ -50,6 +54,8 @@ def to_table(samples: Mapping[str, Samples]) -> pd.DataFrame:
         if recording is not None:
             parts.append(pd.DataFrame({"order": recording.order, "session": recording.session}))
             parts.append(pd.DataFrame(recording.memory, columns=memory_columns(n_commands)))
+        if rows.block is not None:
+            parts.append(pd.DataFrame({"block": rows.block}))
         parts.append(pd.DataFrame(rows.positions, columns=coordinate_columns(rows.positions.shape[1] // 3)))
         frame = pd.concat(parts, axis=1)
         frame.insert(0, "subset", subset)
@@ -87,7 +93,8 @@ def read_subset(path: str | Path, subset: str) -> Samples:
         order, session = (frame[name].to_numpy(np.int64) for name in ("order", "session"))
         recording = Recording(order, session, memory, robot)
     positions = np.ascontiguousarray(frame.loc[:, is_coordinate].to_numpy(np.float64))
-    return Samples(commands, positions, recording)
+    block = frame["block"].to_numpy(np.int64) if "block" in frame else None
+    return Samples(commands, positions, recording, block)
 
 
 def content_hash(samples: Samples) -> str:
@@ -95,7 +102,8 @@ def content_hash(samples: Samples) -> str:
     digest = hashlib.sha256()
     recording = samples.recording
     when = () if recording is None else (recording.order, recording.session, recording.memory)
-    for array in (samples.commands, samples.positions, *when):
+    block = () if samples.block is None else (samples.block,)
+    for array in (samples.commands, samples.positions, *when, *block):
         digest.update(f"{array.shape}".encode())
         digest.update(np.ascontiguousarray(array, dtype="<f8").tobytes())
     return digest.hexdigest()

@@ -99,8 +99,8 @@ def score_intervals(
             for subset, true in truth.items():
                 bounds = read_bounds(stored[run], subset, levels)
                 crossings = _crossings(method, outputs, run, subset, bounds)
-                guarantee = method.guarantee if subset == TEST else NO_GUARANTEE
                 for place, level in enumerate(levels):
+                    guarantee = _guarantee(outputs, method, level) if subset == TEST else NO_GUARANTEE
                     setting = _Setting(
                         intervals[name], true, informative, n_calibration, level, method, guarantee,
                         gross[subset], n_commands[subset],
@@ -112,6 +112,11 @@ def score_intervals(
     rows += [{"dataset": dataset, **row} for row in joint]
     with replacing(output) as temporary:
         pd.DataFrame(rows).to_csv(temporary, index=False)
+
+
+def _guarantee(outputs: StoredOutputs, method: IntervalMethod[Any], level: float) -> str:
+    """What the method promises of rows of `test`."""
+    return method.guarantee if outputs.promise is None else outputs.promise.guarantee(method, level)
 
 
 def _n_calibration(method: IntervalMethod[Any], outputs: StoredOutputs) -> int:

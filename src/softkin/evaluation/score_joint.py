@@ -29,7 +29,7 @@ def joint_rows(
                 "model": robot.spec.name,
                 "preset": robot.preset,
                 "interval_method": JOINT_INTERVALS,
-                **coverage_row(subset, level, held[place], len(robot.joint.scores), is_exact=True),
+                **coverage_row(subset, level, held[place], len(robot.joint.scores), promise=robot.joint.promise),
                 "infinite_share": float(np.isinf(sizes[place]).mean()),
                 "size_mm": float(sizes[place].mean()),
                 "shape": regions.kind,

@@ -17,6 +17,7 @@ from softkin.core.runs import Run
 from softkin.core.samples import TEST, TRAIN, VALIDATION, Array, informative_coordinates
 from softkin.uncertainty.conformal import conformal_rank, error_scale, joint_scores, p_values
 from softkin.uncertainty.intervals.spec import NO_GUARANTEE
+from softkin.uncertainty.promise import Promise
 from softkin.uncertainty.regions.spec import RegionMethod
 from softkin.uncertainty.stored_outputs import INTERVAL_SUBSETS, StoredOutputs, predicted_rows
 
@@ -30,7 +31,8 @@ def moving_residuals(outputs: StoredOutputs, truth: Mapping[str, Array]) -> Iter
     """Each run with its residuals by subset: true minus predicted moving coordinates (n_rows, n_moving) in mm."""
     moving = informative_coordinates(truth[TRAIN])
     for run, stored in outputs.predictions.items():
-        yield run, {subset: (true - predicted_rows(stored, [subset]))[:, moving] for subset, true in truth.items()}
+        residuals = {subset: (true - predicted_rows(stored, [subset]))[:, moving] for subset, true in truth.items()}
+        yield run, residuals | {VALIDATION: residuals[VALIDATION][outputs.calibrated]}
 
 
 def region_rows(
@@ -42,7 +44,7 @@ def region_rows(
         for name, method in methods.items():
             for level in outputs.levels:
                 with of_part(REGIONS, name):
-                    rows = list(_coverages(method, residuals, markers, level))
+                    rows = list(_coverages(method, residuals, markers, level, outputs.promise))
                 yield from ({"model": model, "preset": preset, "interval_method": name, **row} for row in rows)
 
 
@@ -73,26 +75,47 @@ def _markers(truth: Mapping[str, Array]) -> NDArray[np.intp]:
 
 
 def _coverages(
-    method: RegionMethod, residuals: Mapping[str, Array], markers: NDArray[np.intp], level: float
+    method: RegionMethod,
+    residuals: Mapping[str, Array],
+    markers: NDArray[np.intp],
+    level: float,
+    promise: Promise | None = None,
 ) -> Iterator[dict[str, Any]]:
-    """A row per subset of one region at one level."""
-    region = method.region(residuals[TRAIN], residuals[VALIDATION], markers, level)
+    """A row per subset of one region at one level; with a `promise` it is calibrated on blocks."""
+    asked = level if promise is None else promise.asked(level)
+    region = method.region(residuals[TRAIN], residuals[VALIDATION], markers, asked)
+    kind = JOINT if method.is_exact else AT_LEAST
     for subset in INTERVAL_SUBSETS:
-        row = coverage_row(subset, level, region.covers(residuals[subset]), len(residuals[VALIDATION]), method.is_exact)
+        row = coverage_row(subset, level, region.covers(residuals[subset]), len(residuals[VALIDATION]), kind, promise)
         yield row | {"infinite_share": float(np.isinf(region.size_mm)), "size_mm": region.size_mm}
 
 
 def coverage_row(
-    subset: str, level: float, is_covered: NDArray[np.bool_], n_calibration: int, is_exact: bool
+    subset: str,
+    level: float,
+    is_covered: NDArray[np.bool_],
+    n_calibration: int,
+    guarantee: str = JOINT,
+    promise: Promise | None = None,
 ) -> dict[str, Any]:
-    """The coverage of a joint region on the rows of a subset, beside its exact band where it has one there."""
+    """The coverage of a joint region on the rows of a subset, beside its exact band where it has one there.
+
+    Parameters:
+        subset: test or extrapolation.
+        level: of the region.
+        is_covered: whether it holds each row (n_rows,).
+        n_calibration: rows that it is calibrated on.
+        guarantee: on rows of `test`, where rows are exchangeable.
+        promise: of blocks, where these are exchangeable; None where rows are.
+    """
     n_rows, n_covered = len(is_covered), int(is_covered.sum())
-    rank = conformal_rank(n_calibration, level)
+    rank = conformal_rank(n_calibration, level) if promise is None else None
     low, high = clopper_pearson(n_covered, n_rows)
     p_value = float("nan")
-    if subset == TEST and is_exact and rank is not None:
+    if subset == TEST and guarantee == JOINT and rank is not None:
         low, high = coverage_band(n_rows, n_calibration, rank)
         p_value = coverage_p_value(n_covered, n_rows, n_calibration, rank)
+    promised = guarantee if promise is None else promise.of_region(guarantee, level)
     return {
         "subset": subset,
         "confidence_level": level,
@@ -101,7 +124,7 @@ def coverage_row(
         "coordinate": "joint",
         "coverage": n_covered / n_rows,
         "crossing_share": 0.0,
-        "guarantee": NO_GUARANTEE if subset != TEST else JOINT if is_exact else AT_LEAST,
+        "guarantee": promised if subset == TEST else NO_GUARANTEE,
         "coverage_low": low,
         "coverage_high": high,
         "coverage_p_value": p_value,

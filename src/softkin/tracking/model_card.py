@@ -14,14 +14,16 @@ from softkin.data.audit.findings import counted
 from softkin.reporting.tables.numbers import assessed_text, number_text, share_text
 from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.intervals.spec import MARGINAL
+from softkin.uncertainty.promise import BY_BLOCK
 
 #: The warning at the top of the card, by the origin of the data.
 ORIGINS = {"stand-in": "STAND-IN: simulated data in place of the published ones. Nothing here is about the real robot."}
-#: By whether the interval method has a marginal guarantee.
+#: By the guarantee of the interval method.
 GUARANTEES = {
-    True: "An interval at {level} holds its coordinate in at least {level} of cases, for commands drawn like the {n} "
-    "rows of `validation` that calibrated it. That is coordinate by coordinate, not all at once.",
-    False: "Intervals by this method have no guarantee.",
+    MARGINAL: "An interval at {level} holds its coordinate in at least {level} of cases, for commands drawn like the "
+    "{n} rows of `validation` that calibrated it. That is coordinate by coordinate, not all at once.",
+    BY_BLOCK: "An interval at {level} holds its coordinate in at least {level} of cases in a new block (a stretch of "
+    "time, a trial, a command), like the blocks of `validation` that calibrated it. That is coordinate by coordinate.",
 }
 WHOLE_POSES = (
     "A joint interval at {level} ({kind}) holds the whole pose, all moving coordinates at once, in at least {level} of "
@@ -82,9 +84,9 @@ def model_card(
         cells += [assessed_text(interval["coverage"], assessable), number_text(interval["mean_width_mm"])]
         cells.append(assessed_text(interval["joint_coverage"], assessable))
         lines.append(f"| {subset} | {' | '.join(cells)} |")
-    guarantee = GUARANTEES[model.method.guarantee == MARGINAL].format(level=percent, n=len(model.known.truth))
-    whole = WHOLE_POSES.format(level=percent, kind=model.joint.shape.kind)
-    lines += ["", "## Guarantee", "", guarantee, whole, EXTRAPOLATION_NOTES[bool(model.shells)], ""]
+    guarantee = _guarantee(model, percent)
+    lines += ["", "## Guarantee", "", guarantee, *_of_whole_poses(model, level)]
+    lines += [EXTRAPOLATION_NOTES[bool(model.shells)], ""]
     findings = description["findings"]
     lines += ["## Data", "", _rows(description), ""]
     told = [(finding["severity"], f"{finding['sentence']} {finding['consequence']}") for finding in findings]
@@ -115,3 +117,20 @@ def _use(registered: str, n_commands: int, level: float) -> list[str]:
         "```",
         "",
     ]
+
+
+def _of_whole_poses(model: CalibratedModel, level: float) -> list[str]:
+    """What joint intervals at the level promise, if anything."""
+    region = model.joint
+    if region.promise is not None and not region.promise.holds(level):
+        return []
+    return [WHOLE_POSES.format(level=share_text(level, 0), kind=region.shape.kind)]
+
+
+def _guarantee(model: CalibratedModel, level: str) -> str:
+    """What the intervals of the model promise."""
+    kind = model.method.guarantee
+    if kind in GUARANTEES:
+        return GUARANTEES[kind].format(level=level, n=len(model.known.truth))
+    why = ": too few blocks of rows are held out" if "block" in kind else ""
+    return f"Intervals by this method have {kind}{why}."

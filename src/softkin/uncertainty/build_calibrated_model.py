@@ -19,6 +19,7 @@ from softkin.models.spec import PointModel
 from softkin.uncertainty.calibrated import FittedModel, calibrated
 from softkin.uncertainty.choose import deployed_choice
 from softkin.uncertainty.intervals.spec import AUTO, IntervalMethod
+from softkin.uncertainty.promise import calibration_set, promised
 from softkin.uncertainty.stored_outputs import norm_of, shells_of
 
 
@@ -63,12 +64,14 @@ def build_calibrated_model(
         archive = read_run_archive(shells)
         extrapolation = {"shells": shells_of(archive, train)[run], "norm": norm_of(archive)}
     about = {"data": content_hash(train)} | {key: written[key] for key in ("columns",) if key in written}
+    validation, _, promise = calibration_set(read_subset(table, VALIDATION))
     robot = calibrated(
         FittedModel(dataset, specs[run.model], run.preset, load_model(models[run]), train),
-        methods[best["interval_method"]],
-        read_subset(table, VALIDATION),
+        promised(methods[best["interval_method"]], promise),
+        validation,
         **extrapolation,
         about=about,
+        promise=promise,
     )
     with replacing(output) as temporary:
         joblib.dump(robot, temporary, compress=3)

@@ -16,6 +16,7 @@ from softkin.uncertainty.calibration_data import Shell
 from softkin.uncertainty.conformal import error_scale
 from softkin.uncertainty.intervals.spec import IntervalMethod
 from softkin.uncertainty.joint_region import joint_region
+from softkin.uncertainty.promise import Promise
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +41,7 @@ def calibrated(
     shells: Sequence[Shell] = (),
     norm: Callable[[Array], Array] | None = None,
     about: Mapping[str, Any] | None = None,
+    promise: Promise | None = None,
 ) -> CalibratedModel:
     """The calibrated model around a fitted model, with its predictions on `train` and `validation` stored.
 
@@ -50,6 +52,7 @@ def calibrated(
         shells: what the same model predicts beyond cores of `train`, the smallest core first.
         norm: command norm, (n_rows, n_commands) -> (n_rows,), that goes with the shells.
         about: what else is known of the robot, as in `CalibratedModel.about`; None: nothing.
+        promise: of the blocks of `validation`, for whole poses; None where rows are exchangeable.
     """
     train = model.train
     predicted = np.asarray(model.estimator.predict(validation.inputs))
@@ -68,7 +71,7 @@ def calibrated(
     moving = informative_coordinates(train.positions)
     residuals = train.positions - model.estimator.predict(train.inputs)
     scale = error_scale(np.abs(residuals[:, moving]))
-    joint = joint_region(residuals, validation.positions - predicted, moving, shells)
+    joint = joint_region(residuals, validation.positions - predicted, moving, shells, promise)
     data = method.calibrated_on(**known)
     return CalibratedModel(
         model.dataset,

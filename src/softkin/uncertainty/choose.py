@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
-from sklearn.model_selection import KFold
+from sklearn.model_selection import GroupKFold, KFold
 
 from softkin.core.errors import ConfigError
 from softkin.core.failed_parts import INTERVAL_METHODS, of_part
@@ -115,7 +115,7 @@ def _scored_candidates(
             if method.calibrated_on.is_around_a_model and run not in runs:
                 continue
             scores: dict[float, list[Array]] = {level: [], outputs.levels[0]: []}
-            for part, held_out in resplits(data, seed):
+            for part, held_out in resplits(data, seed, outputs.validation.block):
                 with of_part(INTERVAL_METHODS, name):
                     bounds = method.intervals(part, outputs.levels)
                 for at, of_level in scores.items():
@@ -132,8 +132,14 @@ def _scored_candidates(
             }
 
 
-def resplits(data: Resplittable, seed: int) -> Iterator[tuple[Resplittable, NDArray[np.intp]]]:
-    """Calibration data on all folds of the calibration rows but one, and the held-out rows, for each fold."""
-    splitter = KFold(N_FOLDS, shuffle=True, random_state=seed)
-    for calibration_rows, held_out in splitter.split(data.truth):
+def resplits(
+    data: Resplittable, seed: int, block: NDArray[np.int64] | None = None
+) -> Iterator[tuple[Resplittable, NDArray[np.intp]]]:
+    """Calibration data on all folds of the calibration rows but one, and the held-out rows, for each fold; rows of one
+    `block` (n_calibration,) stay in one fold, where there are so many.
+    """
+    splitter: Any = KFold(N_FOLDS, shuffle=True, random_state=seed)
+    if block is not None and len(np.unique(block)) >= N_FOLDS:
+        splitter = GroupKFold(N_FOLDS, shuffle=True, random_state=seed)
+    for calibration_rows, held_out in splitter.split(data.truth, groups=block):
         yield data.resplit(calibration_rows, held_out), held_out

@@ -7,23 +7,28 @@ from typing import Any
 import numpy as np
 
 from softkin.core.samples import Array
-from softkin.uncertainty.intervals.spec import MARGINAL
+from softkin.uncertainty.intervals.spec import MARGINAL, NO_GUARANTEE, WEAK
+from softkin.uncertainty.promise import BY_BLOCK
+
+#: What is said of intervals, by their guarantee; of one without blocks enough that is itself said.
+PROMISES = {
+    MARGINAL: "an interval at 90 % holds its coordinate in 90 % of cases; nothing is promised outside",
+    BY_BLOCK: "an interval at 90 % holds its coordinate in 90 % of cases of a new block; nothing is promised outside",
+    **dict.fromkeys((WEAK, NO_GUARANTEE), "none: intervals by this method have no guarantee"),
+}
 
 
 def described(robot: Any) -> str:
     """Robot, model, method, error inside and outside, promise, data, date; what is not known has no line."""
     known, about = robot.known, robot.about
     n_commands, n_markers = robot.train.commands.shape[1], known.truth.shape[1] // 3
-    is_promised = robot.method.guarantee == MARGINAL
     lines = {
         "robot": f"{robot.dataset}, {_counted(n_commands, 'command')} to {_counted(n_markers, 'marker')}",
         "model": f"{robot.spec.title} ({robot.preset}), fitted on {len(robot.train.commands)} rows",
         "intervals": f"{robot.method.title}, calibrated on {len(known.truth)} rows",
         "inside": f"{_marker_error(known.truth - known.calibration):.3g} mm mean marker error on the calibration set",
         "outside": "nothing is known of errors in extrapolation",
-        "promise": "an interval at 90 % holds its coordinate in 90 % of cases; nothing is promised outside"
-        if is_promised
-        else "none: intervals by this method have no guarantee",
+        "promise": PROMISES.get(robot.method.guarantee, f"none: {robot.method.guarantee}"),
         "data": f"sha256 {about['data'][:16]} of the rows of `train`" if "data" in about else None,
         "date": about.get("date"),
     }

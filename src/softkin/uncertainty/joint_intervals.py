@@ -139,7 +139,11 @@ class JointAnswers:
         )
 
     def _size(self, inputs: Array, levels: tuple[float, ...]) -> Array:
-        """Size (n_levels, n_rows) of the region: the conformal limit; in extrapolation that of rolling shells."""
+        """Size (n_levels, n_rows) of the region: the conformal limit, where blocks are exchangeable at the level that
+        is promised of blocks; in extrapolation that of rolling shells.
+        """
+        promise = self.robot.joint.promise
+        levels = levels if promise is None else tuple(map(promise.asked, levels))
         limits = conformal_limits(self.robot.joint.scores[:, None], levels)
         size = np.broadcast_to(limits, (len(levels), len(inputs)))
         outside = np.asarray(self.robot.is_outside(inputs)) if self.sizes.has_shells else np.zeros(0, dtype=bool)

@@ -11,6 +11,7 @@ from sklearn.model_selection import KFold
 
 from softkin.core.samples import Array
 from softkin.uncertainty.calibration_data import Shell
+from softkin.uncertainty.promise import Promise
 from softkin.uncertainty.regions import box, ellipsoids
 from softkin.uncertainty.regions.spec import Shape, of_shape
 
@@ -28,7 +29,8 @@ class JointRegion:
 
     `shape` is of the `moving` coordinates (n_coordinates,); `scores` (n_calibration,) are those sizes. `shells` hold
     sizes as errors (n_shell, 1): what the region must grow to beyond cores of `train`. `constant` (n_coordinates,) in
-    mm is the largest error of each constant coordinate on the calibration set, 0 for moving ones.
+    mm is the largest error of each constant coordinate on the calibration set, 0 for moving ones. `promise`: of blocks,
+    where these are exchangeable and not rows.
     """
 
     shape: Shape
@@ -36,6 +38,7 @@ class JointRegion:
     scores: Array
     shells: Sequence[Shell]
     constant: Array
+    promise: Promise | None = None
 
     @property
     def markers(self) -> NDArray[np.intp]:
@@ -44,7 +47,11 @@ class JointRegion:
 
 
 def joint_region(
-    train_residuals: Array, residuals: Array, moving: NDArray[np.bool_], shells: Sequence[Shell]
+    train_residuals: Array,
+    residuals: Array,
+    moving: NDArray[np.bool_],
+    shells: Sequence[Shell],
+    promise: Promise | None = None,
 ) -> JointRegion:
     """The joint region around a model.
 
@@ -53,6 +60,7 @@ def joint_region(
         residuals: those of the calibration set (n_calibration, n_coordinates).
         moving: which coordinates (n_coordinates,) move.
         shells: what the same model predicts beyond cores of `train`.
+        promise: of the blocks of the calibration set; None where rows are exchangeable.
     """
     shape = chosen_shape(train_residuals[:, moving], np.flatnonzero(moving) // 3)
     constant = np.where(moving, 0.0, np.abs(residuals).max(axis=0))
@@ -60,7 +68,7 @@ def joint_region(
     for shell in shells:
         scores = shape.scores((shell.truth - shell.predicted)[:, moving])[:, None]
         beyond.append(replace(shell, predicted=np.zeros_like(scores), truth=scores))
-    return JointRegion(shape, moving, shape.scores(residuals[:, moving]), beyond, constant)
+    return JointRegion(shape, moving, shape.scores(residuals[:, moving]), beyond, constant, promise)
 
 
 def chosen_shape(train_residuals: Array, markers: NDArray[np.intp]) -> Shape:

@@ -30,6 +30,7 @@ from softkin.uncertainty.calibration_data import (
     SpreadCalibration,
 )
 from softkin.uncertainty.intervals.spec import Data
+from softkin.uncertainty.promise import calibration_set
 
 #: The subsets that get intervals: the new rows of calibration data, in this order.
 INTERVAL_SUBSETS = (TEST, EXTRAPOLATION)
@@ -37,6 +38,9 @@ INTERVAL_SUBSETS = (TEST, EXTRAPOLATION)
 
 class StoredOutputs:
     """Stored outputs of the models of one dataset.
+
+    `validation` is the calibration set; where blocks are exchangeable and not rows, each counts alike there.
+    `calibrated` numbers its rows in the table, and `promise` says what they promise.
 
     Parameters:
         table: the tidy table; true positions are read of `train` and `validation` only.
@@ -58,7 +62,7 @@ class StoredOutputs:
         shells: str | Path | None = None,
     ) -> None:
         self.train = read_subset(table, TRAIN)
-        self.validation = read_subset(table, VALIDATION)
+        self.validation, self.calibrated, self.promise = calibration_set(read_subset(table, VALIDATION))
         self.new_commands = {subset: read_subset(table, subset).commands for subset in INTERVAL_SUBSETS}
         self.levels = list(confidence_levels)
         self.predictions = {run: pd.read_parquet(path) for run, path in predictions.items()}
@@ -96,7 +100,7 @@ class StoredOutputs:
                     kind(
                         **self._predicted(run),
                         train_spread=predicted_rows(stored, [TRAIN], prefix),
-                        calibration_spread=predicted_rows(stored, [VALIDATION], prefix),
+                        calibration_spread=predicted_rows(stored, [VALIDATION], prefix)[self.calibrated],
                         new_spread=predicted_rows(stored, INTERVAL_SUBSETS, prefix),
                     ),
                 )
@@ -104,7 +108,7 @@ class StoredOutputs:
     def _predicted(self, run: Run) -> dict[str, Array]:
         stored = self.predictions[run]
         return {
-            "calibration": predicted_rows(stored, [VALIDATION]),
+            "calibration": predicted_rows(stored, [VALIDATION])[self.calibrated],
             "truth": self.validation.positions,
             "new": predicted_rows(stored, INTERVAL_SUBSETS),
             "train_commands": self.train.commands,
@@ -115,7 +119,7 @@ class StoredOutputs:
     def _quantiles(self) -> Iterator[tuple[Run, QuantileCalibration]]:
         for run, stored in self.quantiles.items():
             levels = bounds_levels(stored)
-            calibration = read_bounds(stored, VALIDATION, levels)
+            calibration = read_bounds(stored, VALIDATION, levels)[:, self.calibrated]
             new = [read_bounds(stored, subset, levels) for subset in INTERVAL_SUBSETS]
             yield run, QuantileCalibration(calibration, self.validation.positions, np.concatenate(new, axis=1), levels)
 

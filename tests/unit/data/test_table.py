@@ -49,3 +49,15 @@ def test_the_hash_sees_every_number_and_the_shape() -> None:
     flat = Samples(rows.commands.reshape(2, 5), rows.positions)
     assert content_hash(rows) == content_hash(bending_arm(5))
     assert len({content_hash(rows), content_hash(moved), content_hash(flat)}) == 3
+
+
+def test_blocks_go_through_the_table_and_its_hash(tmp_path: Path) -> None:
+    rows = Samples(np.arange(8.0).reshape(4, 2), np.arange(12.0).reshape(4, 3), block=np.array([0, 0, 2, 1]))
+    subsets = dict.fromkeys(SUBSETS, rows)
+    frame = to_table(subsets)
+    schema(2, 1, has_blocks=True).validate(frame)
+    write_table(frame, tmp_path / "table.parquet")
+    read = read_subset(tmp_path / "table.parquet", "test")
+    assert read.block is not None
+    assert read.block.tolist() == [0, 0, 2, 1]
+    assert content_hash(read) == content_hash(rows) != content_hash(Samples(rows.commands, rows.positions))

@@ -20,6 +20,7 @@ from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.conformal import conformal_limit, conformal_rank
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from softkin.uncertainty.joint_intervals import JointIntervals
+from softkin.uncertainty.promise import Promise
 from tests.recorded_robot import recorded_arm
 from tests.unit.uncertainty.small_robot import small_robot
 
@@ -186,3 +187,18 @@ def test_a_changed_scale_of_the_calibration_set_scales_the_region() -> None:
     wide = replace(robot, joint=replace(robot.joint, scores=2 * robot.joint.scores))
     widths = [np.ptp(np.asarray(one.joint_intervals(new.commands, 0.9).bounds), axis=-1) for one in (robot, wide)]
     np.testing.assert_allclose(widths[1], 2 * widths[0])
+
+
+def test_where_blocks_are_exchangeable_the_size_counts_them() -> None:
+    """With K blocks of M rows a level c asks for the score of rank c (K + 1) M, as intervals do."""
+    robot, new = made("box", n=60)
+    n = len(robot.joint.scores)
+    blocks = replace(robot, joint=replace(robot.joint, promise=Promise(n // 2, 2)))
+    scores = np.sort(robot.joint.scores)
+    for level in (0.5, 0.8, 0.9):
+        sides = np.asarray(blocks.joint_intervals(new.commands[:1], level).bounds)[0]
+        moving = blocks.joint.moving
+        size = np.ptp(sides, axis=1)[moving] / 2 / blocks.joint.shape.half_widths
+        rank = int(np.ceil(round(level * (n // 2 + 1) * 2, 9)))
+        np.testing.assert_allclose(size, scores[rank - 1])
+        assert rank > np.ceil(level * (n + 1)) - 1

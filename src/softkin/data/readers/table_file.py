@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from softkin.core.errors import DataError
 from softkin.core.recording import Recording
 from softkin.core.samples import EXTRAPOLATION, MAX_MAGNITUDE, ROWS_FOR_95_PERCENT, SUBSETS, VALIDATION, Array, Samples
 from softkin.data import split
+from softkin.data.blocks import blocks
 from softkin.data.readers import columns
 from softkin.data.readers.complete_rows import GAPS, CompleteRows
 from softkin.data.readers.table_formats import open_table
@@ -71,7 +73,9 @@ def read(
         _check_magnitudes(names, values, table.place)
         recording = _recording(values[:, :n_commands], by, table.place)
         samples = Samples(values[:, :n_commands], _spatial(values[:, n_commands:], dimensions), recording)
-        subset_of = split.split(source["split"], samples.commands, by.get("split"), table.place, recording)
+        how = (source["split"], samples.commands, by.get("split"), table.place)
+        subset_of = split.split(*how, recording)
+        samples = replace(samples, block=blocks(*how))
         sizes = dict(zip(SUBSETS, np.bincount(subset_of, minlength=len(SUBSETS)).tolist(), strict=True))
         split.check_sizes(sizes)
     except DataError as error:
