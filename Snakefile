@@ -1,5 +1,4 @@
 # softkin: from published data to a calibrated forward kinematics. `snakemake --cores 2` is all it takes.
-#
 #     retrieve -> prepare -> fit (tune, fit, predict) -> refit -> calibrate -> score -> tables -> report
 #                    \-> audit                                                   \-> figures -> track (MLflow)
 from pathlib import Path
@@ -15,7 +14,6 @@ report: "workflow/report/workflow.rst"
 include: "workflow/rules/configuration.smk"
 include: "workflow/rules/one_run.smk"
 include: "workflow/rules/paths.smk"
-include: "workflow/rules/of_dataset.smk"
 include: "workflow/rules/deciding_code.smk"
 include: "workflow/rules/retrieve.smk"
 include: "workflow/rules/prepare.smk"

@@ -100,6 +100,9 @@ OTHER_SPACES = ["results/{dataset}/other_spaces.parquet"] * bool(COMPARED)
 INTERVAL_MANIFEST = f"results/{{dataset}}/intervals/{MANIFEST}"
 
 
+include: "of_dataset.smk"
+
+
 def of_quantile_presets(name, presets=(PAPER, TUNED)):
     """One file of a quantile regressor for each of these presets that it gets."""
     return [

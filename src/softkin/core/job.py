@@ -53,8 +53,7 @@ def job(
     """Run a job: messages go to the file `log` and, from level INFO, to the terminal, marked with the time of day and
     `label`. Under `ON_A_SCREEN` nothing goes to the terminal, and what libraries write to it goes to the file.
 
-    Where it succeeds, what it wrote is recorded: hashes of its `outputs` and of its `params`
-    (`softkin.core.job_records`), beside what is known of the files `kept` that it might have written and leaves.
+    Where it succeeds, hashes of `outputs` and `params` are recorded, beside what is known of files `kept` as they are.
 
     A `SoftkinError` ends the job with its message alone and exit status 1, and so does an error that a damaged one of
     its `inputs`, a library's store or the machine explains; the traceback is in the log file alone. Any other exception
