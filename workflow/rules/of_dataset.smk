@@ -2,6 +2,7 @@
 # after a job has failed.
 import json
 import os
+from functools import cache
 
 from softkin.cli.partial_tables import PARTIAL
 
@@ -13,7 +14,14 @@ LEFT_OUT = json.loads(os.environ.get(PARTIAL, "{}"))
 def configured(key, dataset):
     """The models, interval methods, ... of a dataset: those of this key of the configuration that are not left out."""
     out = LEFT_OUT.get(dataset, {}).get(key, ())
-    return [name for name in config[key] if name not in out]
+    return [name for name in config[key] if name not in out] if out else config[key]
+
+
+@cache
+def runs_of(models, presets, ensembles=()):
+    """[model, preset] of each run of these, ensembles by their own presets; one list for all jobs, which are thousands."""
+    runs = [[model, preset] for model in models for preset in presets]
+    return runs + [[name, preset] for name in ensembles for preset in SEARCHED_PRESETS]
 
 
 def ensembles_of(dataset):
@@ -24,21 +32,20 @@ def ensembles_of(dataset):
 def every_run(wildcards):
     """[model, preset] of each run of a dataset, ensembles last."""
     models = configured("models", wildcards.dataset)
-    runs = [[model, preset] for model in models for preset in config["presets"]]
     ensembles = ensembles_of(wildcards.dataset)
-    return runs + [[name, preset] for name in ensembles for preset in SEARCHED_PRESETS]
+    return runs_of(tuple(models), tuple(config["presets"]), tuple(ensembles))
 
 
 def pool_runs(wildcards):
     """[model, preset] of each run of a dataset whose parameters come from a study: they may be members of ensembles."""
     models = configured("models", wildcards.dataset)
-    return [[model, preset] for model in models for preset in SEARCHED_PRESETS]
+    return runs_of(tuple(models), tuple(SEARCHED_PRESETS))
 
 
 def searched_of(dataset):
     """[model, preset] of each run of a dataset that is searched for on train, ensembles last."""
     models = configured("models", dataset) + ensembles_of(dataset)
-    return [[model, preset] for model in models for preset in SEARCHED_PRESETS]
+    return runs_of(tuple(models), tuple(SEARCHED_PRESETS))
 
 
 def searched_runs(wildcards):
@@ -48,7 +55,8 @@ def searched_runs(wildcards):
 
 def tuned_runs(wildcards):
     """[model, preset] of each tuned run of a dataset."""
-    return [run for run in every_run(wildcards) if run[1] == TUNED]
+    presets = [preset for preset in config["presets"] if preset == TUNED]
+    return runs_of(tuple(configured("models", wildcards.dataset)), tuple(presets))
 
 
 def manifests_of(dataset):
@@ -77,7 +85,7 @@ def compared_models(wildcards):
 def quantile_runs(wildcards):
     """[quantile regressor, preset] of each run of a dataset."""
     names = configured("quantile_models", wildcards.dataset)
-    return [[name, preset] for name in names for preset in QUANTILE_PRESETS]
+    return runs_of(tuple(names), tuple(QUANTILE_PRESETS))
 
 
 def quantile_manifests(wildcards):

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 import time
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import ExitStack
 from pathlib import Path
+from typing import Any
 
 import pytest
 from mlflow import MlflowClient
@@ -13,6 +18,8 @@ from mlflow import MlflowClient
 from softkin.core.errors import StoreError
 from softkin.tracking import Campaign
 from softkin.tracking.lock import PREFIX, _break_if_old, _server_lock, locked
+from softkin.tracking.records import CURRENT, KEY
+from tests.workflow.mlflow_server import serving, sqlite
 
 HOLD = """
 import sys, time
@@ -63,3 +70,62 @@ def test_a_lock_on_a_server_ends_with_its_lease(campaign: Campaign, monkeypatch:
     _break_if_old(client, f"{PREFIX}finger")
     assert client.search_registered_models() == []
     _break_if_old(client, f"{PREFIX}finger")
+
+
+WRITE = """
+import json, sys
+from softkin.core.runs import Run
+from softkin.tracking import Campaign, locked, log_dataset
+uri, files, runs = json.loads(sys.argv[1])
+print("ready", flush=True)
+sys.stdin.readline()
+with locked(uri, "finger"):
+    log_dataset(Campaign("nightly", 5, uri), **files, runs={Run(*run): of_run for run, of_run in runs})
+"""
+
+
+@pytest.fixture(params=["file", "server"])
+def shared_store(request: pytest.FixtureRequest, campaign: Campaign, tmp_path: Path) -> Iterator[str]:
+    """A store that two people write to."""
+    with ExitStack() as stack:
+        if request.param == "server":
+            yield stack.enter_context(serving(stack.enter_context(sqlite(tmp_path)), tmp_path)).uri
+        else:
+            yield campaign.tracking_uri
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(1800)
+def test_two_writers_at_any_gap_leave_each_others_runs_whole(
+    shared_store: str, results: dict[str, Any], tmp_path: Path
+) -> None:
+    """They log different results of the same runs; at the end of each pair every run is there once as current."""
+    files = {name: str(path) for name, path in results.items() if name != "runs"}
+    client = MlflowClient(shared_store, shared_store)
+    for number, gap in enumerate((0.0, 0.5, 1.0, 2.0, 4.0, 6.0)):
+        writers = []
+        for who in range(2):
+            predictions = tmp_path / f"predictions_{number}_{who}.parquet"
+            predictions.write_text(f"{number} {who}")
+            runs = [[run, of_run | {"predictions": str(predictions)}] for run, of_run in results["runs"].items()]
+            command = [sys.executable, "-c", WRITE, json.dumps([shared_store, files, runs])]
+            writers.append(subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True))
+        for writer in writers:
+            assert writer.stdout is not None
+            assert writer.stdout.readline() == "ready\n"
+        for place, writer in enumerate(writers):
+            time.sleep(gap * place)
+            assert writer.stdin is not None
+            print(file=writer.stdin, flush=True)
+        assert [writer.wait(600) for writer in writers] == [0, 0], gap
+        for writer in writers:
+            writer.communicate()
+        experiment = client.get_experiment_by_name("finger")
+        assert experiment is not None
+        found = client.search_runs([experiment.experiment_id], max_results=1000)
+        assert {run.info.status for run in found} == {"FINISHED"}, gap
+        of_models = [run for run in found if run.data.tags["kind"] == "model"]
+        assert len(of_models) == 2 * (number + 1) * len(results["runs"]), "nothing is deleted"
+        current = Counter(run.data.tags[KEY] for run in found if run.data.tags[CURRENT] == "true")
+        assert set(current) == {run.data.tags[KEY] for run in found}, gap
+        assert set(current.values()) == {1}, gap
