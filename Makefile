@@ -28,7 +28,7 @@ endif
 .PHONY: help run demo campaign refit schedule prune unlock new-robot test test-workflow test-others test-run lint ui store report verify
 .PHONY: gallery numbers results-page
 .PHONY: snakemake-report campaigns campaign-slurm coverage standins timings benchmark benchmark-large benchmark-pruning benchmark-shells
-.PHONY: benchmark-figures benchmark-commands benchmark-many-robots benchmark-recalibration
+.PHONY: benchmark-figures benchmark-commands benchmark-many-robots benchmark-recalibration benchmark-choice
 .PHONY: environment clean ui-screenshot bad-inputs-page faults-page
 
 # These targets, each with the first sentence of the comment above it.
@@ -162,6 +162,10 @@ benchmark-many-robots: .venv/installed
 # Whether intervals made from shells of `train` hold outside it, on simulated robots.
 benchmark-shells: .venv/installed
 	$(BIN)/python benchmarks/shells.py
+
+# Which score picks the interval method that serves the rows that are no gross errors, on simulated robots.
+benchmark-choice: .venv/installed
+	$(BIN)/python -m benchmarks.choice
 
 # What a few labelled poses of a new session do to coverage and width, and how soon the alarm notices one.
 benchmark-recalibration: .venv/installed

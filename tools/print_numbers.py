@@ -17,6 +17,8 @@ from softkin.core.runs import OUTER
 from softkin.core.samples import EXTRAPOLATION, TEST
 from tools.run_tables import ONE_FOR_EVERYWHERE, RUN, RunTables
 
+RATIO = "winkler_ratio_to_oracle"
+
 
 def section(title: str, *frames: pd.DataFrame | pd.Series | str) -> None:
     """Print a title, and what belongs below it."""
@@ -64,11 +66,20 @@ def intervals_in_extrapolation(tables: RunTables) -> None:
     """Print what intervals hold in extrapolation, beside the oracle."""
     frame = tables.at_level("extrapolation_intervals")
     run = [*RUN, "interval_method"]
-    columns = ["coverage", "winkler_ratio_to_oracle", "infinite_share", "domain_auc", "effective_size", "refused"]
+    columns = ["coverage", RATIO, "infinite_share", "domain_auc", "effective_size", "refused"]
     plain = [ONE_FOR_EVERYWHERE, "scp_mapie"]
     for subset in (EXTRAPOLATION, TEST):
         rows = frame[(frame["subset"] == subset) & frame["interval_method"].isin(plain)]
-        section(f"auto and plain, {subset}", rows.set_index(run)[columns[:2]])
+        shown = [
+            "coverage",
+            "worst_coverage",
+            "joint_coverage",
+            RATIO,
+            "ratio_low",
+            "ratio_high",
+            "ratio_without_gross",
+        ]
+        section(f"auto and plain, {subset}", rows.set_index(run)[[*shown, "n_commands", "assessable"]])
     others = frame[(frame["subset"] == EXTRAPOLATION) & ~frame["interval_method"].isin(plain)]
     section("everything else, extrapolation", others[others["preset"] != OUTER].set_index(run)[columns])
 

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from itertools import chain
+from collections.abc import Mapping
 from typing import Any
 
 import pandas as pd
 
+from softkin.core.metrics.interval import fewest_commands
 from softkin.core.samples import EXTRAPOLATION, TEST
+from softkin.evaluation.beside_oracle import BAND
 from softkin.models.spec import PAPERS_RUN
-from softkin.reporting.tables.numbers import number_text, share_text
+from softkin.reporting.tables.numbers import NOT_ASSESSABLE, NOTHING, band_text, number_text, share_text
 from softkin.uncertainty.labelled import LABELLED_METHODS
 from softkin.uncertainty.regions import REGION_METHODS
 from softkin.uncertainty.regions.spec import JOINT_INTERVALS
@@ -19,6 +21,7 @@ from tools.run_tables import ONE_FOR_EVERYWHERE, RUN
 #: The paper's recipe: what it puts around its model.
 RECIPE = "scp_mapie"
 AVERAGES = ("mean", "mean_informative", "joint")
+RATIOS = ("winkler_ratio_to_paper", "winkler_ratio_to_paper_without_gross")
 ORACLE, RATIO = "oracle", "winkler_ratio_to_oracle"
 
 
@@ -42,13 +45,14 @@ def _chosen(run: FinishedRun) -> str:
     means = run.tables.interval_means().set_index([*RUN, "interval_method", "subset"])
     choice = run.tables.chosen_intervals()
     rows = []
+    scored = ("coverage", "winkler_mm", "winkler_without_gross_mm")
     for dataset in run.datasets:
         shown = choice[choice["dataset"] == dataset].to_dict("records")
         recipe = (dataset, *PAPERS_RUN, RECIPE, TEST)
         if recipe in means.index:
-            scores = {f"test_{name}": means.loc[recipe, name] for name in ("coverage", "winkler_mm")}
+            scores = {f"test_{name}": means.loc[recipe, name] for name in scored}
             papers = dict(zip([*RUN, "interval_method"], recipe, strict=False))
-            shown.insert(0, papers | scores | {"winkler_ratio_to_paper": 1.0})
+            shown.insert(0, papers | scores | dict.fromkeys(RATIOS, 1.0))
         for row in shown:
             role = " and ".join(name for name in ("chosen", "deployed") if row.get(name)) or "the paper's recipe"
             rows.append(
@@ -56,10 +60,12 @@ def _chosen(run: FinishedRun) -> str:
                     *(run.name(dataset, TEST), role, TITLES.methods[row["interval_method"]]),
                     TITLES.run(row["model"], row["preset"]),
                     *(share_text(row["test_coverage"]), number_text(row["test_winkler_mm"])),
-                    number_text(row["winkler_ratio_to_paper"]),
+                    number_text(row["test_winkler_without_gross_mm"]),
+                    *(number_text(row[name]) for name in RATIOS),
                 ]
             )
-    header = ["Robot", "Interval", "Method", "Around", "Coverage", "Winkler score (mm)", "Of the recipe's"]
+    header = ["Robot", "Interval", "Method", "Around", "Coverage", "Winkler score (mm)"]
+    header += ["Without gross errors (mm)", "Of the recipe's", "Without gross errors"]
     return table(header, rows)
 
 
@@ -123,32 +129,54 @@ def intervals_in_extrapolation(run: FinishedRun) -> dict[str, Any]:
     frame = frame[frame["subset"] == EXTRAPOLATION]
     deployed = run.tables.deployed()[RUN]
     return {
+        "band": share_text(BAND, 0),
+        "fewest": str(fewest_commands(run.tables.level)),
         "one_for_everywhere": _plain_and_widened(run, frame, deployed),
         "labelled": _labelled(run, frame.merge(deployed, on=RUN)),
     }
 
 
 def _plain_and_widened(run: FinishedRun, frame: pd.DataFrame, deployed: pd.DataFrame) -> str:
-    """Around the deployed models and the paper's: the interval for everywhere, and plain split conformal prediction."""
-    scores = frame.set_index([*RUN, "interval_method"])[["coverage", RATIO]].to_dict("index")
-    methods, rows = (ONE_FOR_EVERYWHERE, RECIPE), []
-    for dataset in run.datasets:
-        own = [(row.model, row.preset) for row in deployed.itertuples() if row.dataset == dataset]
-        for around in dict.fromkeys([*own, tuple(PAPERS_RUN)]):
-            of_methods = [scores.get((dataset, *around, method), {}) for method in methods]
-            cells = [
-                (share_text(of.get("coverage")), number_text(of.get("winkler_ratio_to_oracle"))) for of in of_methods
-            ]
-            rows.append([run.name(dataset, EXTRAPOLATION), TITLES.run(*around), *chain.from_iterable(cells)])
-    header = [f"{TITLES.methods[method]}: {score}" for method in methods for score in ("coverage", "ratio")]
-    return table(["Robot", "Around", *header], rows)
+    """The interval for everywhere and plain split conformal prediction, around each model that is listed for a robot:
+    all robots are, and where the models of `auto` were not refitted there is a dash.
+    """
+    scores = frame.set_index([*RUN, "interval_method"]).to_dict("index")
+    means = run.tables.interval_means()
+    plain = means[(means["subset"] == EXTRAPOLATION) & (means["interval_method"] == RECIPE)]
+    plain_coverage = plain.set_index(RUN)["coverage"].to_dict()
+    own = set(deployed.itertuples(index=False, name=None))
+    rows = []
+    for around in frame[["model", "preset"]].drop_duplicates().itertuples(index=False, name=None):
+        for dataset in run.datasets:
+            of = scores.get((dataset, *around, ONE_FOR_EVERYWHERE), {})
+            of_plain = scores.get((dataset, *around, RECIPE), {})
+            deployed_here = ", deployed" if (dataset, *around) in own else ""
+            shares = [share_text(of.get(name)) for name in ("coverage", "worst_coverage", "joint_coverage")]
+            rows.append(
+                [
+                    *(run.name(dataset, EXTRAPOLATION), TITLES.run(*around) + deployed_here, *shares),
+                    *(_ratio(of), number_text(of.get("ratio_without_gross"))),
+                    *(share_text(plain_coverage.get((dataset, *around))), _ratio(of_plain)),
+                ]
+            )
+    header = ["Robot", "Around", "Coverage", "Worst coordinate", "Whole pose", "Ratio (band)", "Without gross errors"]
+    return table([*header, f"{TITLES.methods[RECIPE]}: coverage", "Its ratio (band)"], rows)
+
+
+def _ratio(scores: Mapping[str, Any]) -> str:
+    """The ratio to the oracle's score with its band, or that the commands are too few to tell a coverage."""
+    if not scores:
+        return NOTHING
+    if not scores["assessable"]:
+        return f"{NOT_ASSESSABLE}: {scores['n_commands']} commands"
+    return f"{number_text(scores[RATIO])} ({band_text(scores['ratio_low'], scores['ratio_high'])})"
 
 
 def _labelled(run: FinishedRun, frame: pd.DataFrame) -> str:
     """The labelled methods around the deployed models: scores, labels used, and how much weight is left."""
     rows = []
     for row in frame[frame["interval_method"].isin(list(LABELLED_METHODS))].to_dict("records"):
-        if row["interval_method"] == ORACLE:
+        if row["interval_method"] == ORACLE or not row["assessable"]:
             continue
         coverage = "refuses" if isinstance(row["refused"], str) else share_text(row["coverage"])
         numbers = [number_text(row[name]) for name in (RATIO, "domain_auc", "effective_size")]

@@ -71,7 +71,8 @@ class RunTables:
         choice = self.read("interval_choice")
         names = [*RUN, "interval_method", "chosen", "deployed"]
         shown = choice[choice["chosen"] | choice["deployed"]]
-        return shown[[*names, "test_coverage", "test_winkler_mm", "winkler_ratio_to_paper"]]
+        scores = ["test_coverage", "test_winkler_mm", "test_winkler_without_gross_mm"]
+        return shown[[*names, *scores, "winkler_ratio_to_paper", "winkler_ratio_to_paper_without_gross"]]
 
     def interval_means(self) -> pd.DataFrame:
         """Scores of all intervals at the level, averaged over the moving coordinates."""

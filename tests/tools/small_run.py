@@ -91,6 +91,7 @@ def _intervals() -> dict[str, Rows]:
     choice, extrapolation = [], []
     for robot, (model, preset, method) in DEPLOYED.items():
         scores = {"test_coverage": 0.858, "test_winkler_mm": 5.13, "winkler_ratio_to_paper": 0.75}
+        scores |= {"test_winkler_without_gross_mm": 5.0, "winkler_ratio_to_paper_without_gross": 0.5}
         run = {"dataset": robot, "model": model, "preset": preset, "interval_method": method, "confidence_level": 0.9}
         choice.append(run | {"chosen": robot == "arm", "deployed": True} | scores)
         if robot == "finger":
@@ -98,6 +99,8 @@ def _intervals() -> dict[str, Rows]:
         extrapolation += [
             run
             | {"interval_method": name, "subset": subset, "coverage": coverage, "winkler_ratio_to_oracle": 1.28}
+            | {"worst_coverage": 0.96, "joint_coverage": 0.93, "ratio_low": 1.2, "ratio_high": 1.4}
+            | {"ratio_without_gross": 1.25, "n_commands": 12 if robot == "arm" else 378, "assessable": robot != "arm"}
             | {"infinite_share": 0.0, "labels_used": "none", "domain_auc": 0.999, "effective_size": 7.5}
             | {"refused": "7.5 effective calibration rows" if name == "weighted" else None}
             for name, coverage in (("oracle", 0.9), ("weighted", None), ("scp_mapie", 0.35), ("auto", 0.974))
@@ -106,6 +109,7 @@ def _intervals() -> dict[str, Rows]:
     metrics = [
         {"dataset": robot, "subset": subset, "model": model, "preset": preset, "interval_method": method}
         | {"confidence_level": level, "coordinate": coordinate, "coverage": 0.85, "winkler_mm": 6.87, "size_mm": 0.012}
+        | {"winkler_without_gross_mm": 6.5}
         | {"coverage_low": 0.8, "coverage_high": 0.84 if coordinate == "m1_y" else 0.95}
         for robot, subset, (model, preset), method, level, coordinate in product(
             ROBOTS,

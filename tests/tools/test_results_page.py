@@ -80,8 +80,13 @@ def test_intervals_stand_beside_the_papers_recipe_and_say_their_role(page: str) 
         ["| My arm", "chosen and deployed"],
     ]
     assert "| FINGER (leak) | the paper's recipe | " in page
-    assert f"| FINGER | {TITLES.run('gp', 'tuned')} | 97.4 % | 1.28 | 35.0 % | 1.28 |" in page
-    assert f"| My arm | {TITLES.run('gb', 'paper')} | – | – | – | – |" in page
+    around = TITLES.run("gp", "tuned")
+    ratio = "1.28 (1.20 to 1.40)"
+    assert f"| FINGER | {around}, deployed | 97.4 % | 96.0 % | 93.0 % | {ratio} | 1.25 | 85.0 % | {ratio} |" in page
+    assert f"| My arm | {around} | – | – | – | – | – | 85.0 % | – |" in page  # listed for one, listed for all
+    few = "not assessable: 12 commands"
+    around = TITLES.run("lr", "outer")
+    assert f"| My arm | {around}, deployed | 97.4 % | 96.0 % | 93.0 % | {few} | 1.25 | 85.0 % | {few} |" in page
     weighted = TITLES.methods["weighted"]
     assert f"| FINGER | {weighted} | none | refuses | 0.0 % | 1.28 | 0.999 | 7.50 |" in page
     assert "| FINGER (leak) | 8 | 5.00 | 100.0 % | 2.0 % to 40.0 % |" in page

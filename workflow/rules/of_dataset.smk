@@ -55,8 +55,9 @@ def searched_runs(wildcards):
 
 def tuned_runs(wildcards):
     """[model, preset] of each tuned run of a dataset."""
+    models = configured("models", wildcards.dataset) + ensembles_of(wildcards.dataset)
     presets = [preset for preset in config["presets"] if preset == TUNED]
-    return runs_of(tuple(configured("models", wildcards.dataset)), tuple(presets))
+    return runs_of(tuple(models), tuple(presets))
 
 
 def manifests_of(dataset):

@@ -113,7 +113,8 @@ def cores_and_shells(norms: Array, farthest: float, core_shares: Sequence[float]
     """Rows of each core of `train` and of its shell, by the norms (n_rows,) of its commands.
 
     To the cores of `core_shares` comes the matched one, unless another is nearly that: the largest norm of `train` is
-    to its norm as `farthest`, the norm of the farthest new command, is to the largest of `train`. The list is empty
+    to its norm as `farthest`, the norm of the farthest new command, is to the largest of `train`. So intervals made of
+    these shells are transductive: all new commands, none of their positions, were looked at. The list is empty
     where the norms leave no shell; a core of commands that are all 0 is left out.
     """
     largest = float(norms.max())

@@ -1,9 +1,9 @@
-"""Choose the interval method of a dataset by cross-validated Winkler scores on `validation`."""
+"""Choose the interval method of a dataset by cross-validated typical Winkler scores on `validation`."""
 
 from __future__ import annotations
 
 import logging
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -15,9 +15,10 @@ from sklearn.model_selection import GroupKFold, KFold
 from softkin.core.errors import ConfigError
 from softkin.core.failed_parts import INTERVAL_METHODS, of_part
 from softkin.core.files import replacing
-from softkin.core.metrics.interval import winkler_scores
+from softkin.core.metrics.interval import typical_winkler, winkler_scores
 from softkin.core.runs import Run, nearest_level
-from softkin.core.samples import MIN_CALIBRATION_ROWS, Array, informative_coordinates
+from softkin.core.samples import MIN_CALIBRATION_ROWS, TRAIN, VALIDATION, Array, informative_coordinates
+from softkin.data.audit.gross_rows import gross_rows
 from softkin.models.spec import PAPERS_RUN
 from softkin.uncertainty.calibration_data import PointCalibration, QuantileCalibration, ShellCalibration
 from softkin.uncertainty.intervals.spec import AUTO, MARGINAL, IntervalMethod
@@ -26,6 +27,8 @@ from softkin.uncertainty.stored_outputs import StoredOutputs
 logger = logging.getLogger("softkin")
 
 N_FOLDS = MIN_CALIBRATION_ROWS
+#: The score (mm) that candidates are compared by: the lowest is chosen.
+DECISIVE = "cv_winkler_typical_mm"
 
 #: Calibration data whose calibration rows can be split again.
 Resplittable = PointCalibration | QuantileCalibration
@@ -53,12 +56,14 @@ def choose(
     regime: str,
     choice: str | Path,
 ) -> None:
-    """Write the candidates with their cross-validated Winkler scores, best first.
+    """Write the candidates with their cross-validated scores, best first.
 
     Candidates are the in-domain methods with a marginal guarantee around one of `runs`, and those calibrated on
-    quantiles. Each is calibrated on four folds of `validation` and scored on the held-out one, five times: the mean
-    Winkler score over moving coordinates. Ties go to the method that comes first; where the calibration set is so small
-    that all are infinite, the lowest configured level decides.
+    quantiles. Each is calibrated on four folds of `validation` and scored on the held-out one, five times: a row's
+    score is the mean Winkler score over moving coordinates. The typical one of all rows decides, their geometric mean,
+    which a handful of failed rows cannot turn. Beside it stand the means over rows, with and without the gross errors
+    that the audit finds in `train` and `validation`. Ties go to the method that comes first; where the calibration set
+    is so small that all are infinite, the lowest configured level decides.
 
     The best is `chosen`. `deployed` is the best around a point model, which the calibrated model holds. `outside` names
     the method of its intervals in extrapolation: `auto` if the regime is `auto` and the run has shells, else the same.
@@ -69,8 +74,8 @@ def choose(
         runs: runs that may be deployed.
         seed: of the folds.
         regime: one of `REGIMES`.
-        choice: output (CSV: model, preset, interval_method, confidence_level, cv_winkler_mm, chosen, deployed,
-            outside).
+        choice: output (CSV: model, preset, interval_method, confidence_level, cv_winkler_typical_mm,
+            cv_winkler_mm, cv_winkler_without_gross_mm, chosen, deployed, outside).
 
     Raises:
         ConfigError: no method is calibrated.
@@ -82,7 +87,7 @@ def choose(
             where="interval_methods",
             fix="add scp_mapie to interval_methods",
         )
-    frame = frame.sort_values(["cv_winkler_mm", "tie"], kind="stable", ignore_index=True).drop(columns="tie")
+    frame = frame.sort_values([DECISIVE, "tie"], kind="stable", ignore_index=True).drop(columns="tie")
     frame["chosen"] = frame.index == 0
     around_model = frame["interval_method"].map(lambda name: methods[name].calibrated_on.is_around_a_model)
     frame["deployed"] = around_model & ~around_model.shift(fill_value=False).cummax()
@@ -93,7 +98,7 @@ def choose(
     with replacing(choice) as temporary:
         frame.to_csv(temporary, index=False)
     best = frame.iloc[0]
-    if np.isinf(best["cv_winkler_mm"]):
+    if np.isinf(best[DECISIVE]):
         level, lowest = (f"{100 * at:g} %" for at in (best["confidence_level"], outputs.levels[0]))
         logger.warning("validation has too few rows for intervals at %s: methods are compared at %s", level, lowest)
     if regime == AUTO and not by_shells.any():
@@ -104,7 +109,8 @@ def choose(
 def _scored_candidates(
     outputs: StoredOutputs, methods: Mapping[str, IntervalMethod[Any]], runs: Collection[Run], seed: int
 ) -> Iterator[dict[str, Any]]:
-    """A row per candidate, with its cross-validated score."""
+    """A row per candidate, with its cross-validated scores."""
+    regular = ~gross_rows({TRAIN: outputs.train, VALIDATION: outputs.validation})[VALIDATION]
     level = nearest_level(outputs.levels)
     moving = informative_coordinates(outputs.train.positions)
     for name, method in methods.items():
@@ -114,22 +120,39 @@ def _scored_candidates(
         for run, data in outputs.of(method.calibrated_on):
             if method.calibrated_on.is_around_a_model and run not in runs:
                 continue
-            scores: dict[float, list[Array]] = {level: [], outputs.levels[0]: []}
-            for part, held_out in resplits(data, seed, outputs.validation.block):
-                with of_part(INTERVAL_METHODS, name):
-                    bounds = method.intervals(part, outputs.levels)
-                for at, of_level in scores.items():
-                    winkler = winkler_scores(data.truth[held_out], bounds[outputs.levels.index(at)], at)
-                    of_level.append(winkler[:, moving].mean(axis=1))
-            means = {at: float(np.concatenate(of_level).mean()) for at, of_level in scores.items()}
+            with of_part(INTERVAL_METHODS, name):
+                scores = held_out_scores(method, data, outputs.levels, moving, seed, outputs.validation.block)
+            of_rows = scores[outputs.levels.index(level)]
+            typical = typical_winkler(of_rows)
             yield {
                 "model": run.model,
                 "preset": run.preset,
                 "interval_method": name,
                 "confidence_level": level,
-                "cv_winkler_mm": means[level],
-                "tie": means[outputs.levels[0]] if np.isinf(means[level]) else 0.0,
+                DECISIVE: typical,
+                "cv_winkler_mm": float(of_rows.mean()),
+                "cv_winkler_without_gross_mm": float(of_rows[regular].mean()) if regular.any() else np.nan,
+                "tie": typical_winkler(scores[0]) if np.isinf(typical) else 0.0,
             }
+
+
+def held_out_scores(
+    method: IntervalMethod[Any],
+    data: Resplittable,
+    levels: Sequence[float],
+    moving: NDArray[np.bool_],
+    seed: int,
+    block: NDArray[np.int64] | None = None,
+) -> Array:
+    """Winkler scores (n_levels, n_rows) in mm of the calibration rows, each by the intervals that are calibrated on the
+    folds without it: means over the `moving` coordinates. `block` as of `resplits`.
+    """
+    scores = np.empty((len(levels), len(data.truth)))
+    for part, held_out in resplits(data, seed, block):
+        for place, bounds in enumerate(method.intervals(part, levels)):
+            winkler = winkler_scores(data.truth[held_out], bounds, levels[place])
+            scores[place, held_out] = winkler[:, moving].mean(axis=1)
+    return scores
 
 
 def resplits(

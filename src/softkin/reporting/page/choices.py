@@ -11,7 +11,7 @@ from softkin.core.samples import EXTRAPOLATION, TEST
 from softkin.reporting.page.marks import Mark
 from softkin.training.selection import deployed
 
-CHOSEN = Mark("chosen", "the lowest cross-validated Winkler score on validation rows")
+CHOSEN = Mark("chosen", "the lowest typical Winkler score, cross-validated on validation rows")
 DEPLOYED = Mark("deployed", "what the calibrated model holds: the chosen run, and the best interval method around it")
 
 

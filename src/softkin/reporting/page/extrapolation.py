@@ -105,8 +105,8 @@ def extrapolation_grid(metrics: pd.DataFrame, titles: Titles, level: float, mark
         "an oracle that is calibrated on the very rows it is scored on and grows with the distance beyond train: a "
         "ratio of 1 is as good as such an interval can be. The band of a ratio holds it in 95 % of draws of the "
         "distinct commands; where these are too few to tell a coverage, it is not assessable. Labels are the positions "
-        "of extrapolation rows that a method has looked at. The matched outer shell looks at the farthest new command "
-        "before any interval is made, though at no position."
+        "of extrapolation rows that a method has looked at. One outer shell is matched to the farthest new command: "
+        "intervals made of shells look at all new commands, though at no position, before any is made."
     )
     columns = [*filtered_columns("Robot"), SUBSET, *filtered_columns("Model", "Preset", "Method")]
     columns += number_columns("Coverage", "Worst coordinate", "All at once", "Mean width (mm)", "Winkler (mm)")

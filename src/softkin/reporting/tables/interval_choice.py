@@ -18,10 +18,11 @@ RATIO = "winkler_ratio_to_paper"
 
 
 def interval_choice(candidates: Mapping[str, pd.DataFrame], metrics: pd.DataFrame) -> pd.DataFrame:
-    """Candidates of every dataset, best first by `cv_winkler_mm`, with their scores (mean over moving coordinates) on
-    test and, by the method that each has `outside`, on extrapolation; the ratio of their Winkler score on test to that
-    of the paper's recipe, where it was run; both also without gross errors. `extrapolation_assessable` says whether the
-    `extrapolation_commands`, how many distinct ones there are, can tell a coverage.
+    """Candidates of every dataset, best first by `cv_winkler_typical_mm`, with their scores (mean over moving
+    coordinates) on test and, by the method that each has `outside`, on extrapolation; the ratio of their Winkler score
+    on test to that of the paper's recipe, where it was run; both also without gross errors.
+    `extrapolation_assessable` says whether the `extrapolation_commands`, how many distinct ones there are, can tell a
+    coverage.
     """
     mean = metrics[metrics["coordinate"] == "mean_informative"]
     key = ["dataset", "model", "preset", "interval_method", "confidence_level"]
@@ -79,7 +80,7 @@ def why_another_is_deployed(choice: pd.DataFrame, titles: Titles) -> dict[str, s
             else "none is deployed"
         )
         sentences[str(dataset)] = (
-            f"Chosen is {chosen_text}, of the lowest cross-validated Winkler score; it has quantile regressors of its "
-            f"own and surrounds no point model, so {outcome}."
+            f"Chosen is {chosen_text}, of the lowest typical Winkler score, cross-validated; it has quantile "
+            f"regressors of its own and surrounds no point model, so {outcome}."
         )
     return sentences

@@ -60,9 +60,9 @@ def interval_table(
         groups.append((f"{title} (LEAK)" if shown["leak"].any() else title, len(shown)))
     remark = (
         "Test rows, averaged over the moving coordinates; nominal level "
-        f"{share_text(float(choice['confidence_level'].iloc[0]), 0)}. Chosen: the lowest cross-validated Winkler score "
-        "on validation rows. Deployed: what the calibrated model holds. Bold: the lowest Winkler score on test among "
-        "the methods with a marginal guarantee."
+        f"{share_text(float(choice['confidence_level'].iloc[0]), 0)}. Chosen: the lowest typical Winkler score, "
+        "cross-validated on validation rows. Deployed: what the calibrated model holds. Bold: the lowest Winkler "
+        "score on test among the methods with a marginal guarantee."
     )
     reasons = [f"{dataset_titles[d]}: {why}" for d, why in why_another_is_deployed(choice, titles).items()]
     return PaperTable("Prediction intervals, as measured", HEADER, rows, bold, groups, [remark, *reasons, *notes])

@@ -32,7 +32,8 @@ def intervals(data: ShellCalibration, confidence_levels: Sequence[float]) -> Arr
 
 def matched_intervals(data: ShellCalibration, confidence_levels: Sequence[float]) -> Array:
     """As `intervals`, with the core for which radius of `train` / radius of the core is nearest, in logarithms, to the
-    largest distance of the new commands. It uses the new commands, not their positions.
+    largest distance of the new commands. It is transductive: it looks at all new commands, at none of their positions,
+    before any of them gets an interval.
     """
     largest_distance = np.log(new_distances(data).max())
 

@@ -82,6 +82,7 @@ def interval_choice() -> pd.DataFrame:
     scores |= {"test_winkler_mm": 3.0, "winkler_ratio_to_paper": np.nan}
     scores |= {"extrapolation_coverage": 0.8, "extrapolation_mean_width_mm": 0.5}
     scores |= {"test_winkler_without_gross_mm": 2.5, "winkler_ratio_to_paper_without_gross": np.nan}
+    scores |= {"cv_winkler_typical_mm": 0.75, "cv_winkler_without_gross_mm": 0.875}
     scores |= {"extrapolation_commands": 40, "extrapolation_assessable": True}
     rows = []
     for dataset in ROBOTS:

@@ -52,5 +52,18 @@ def test_of_two_robots_one_has_another_interval_deployed_than_chosen() -> None:
     (reason,) = grid.remarks
     assert reason.startswith("finger: Chosen is CQR (Gradient boosting, tuned)")
     assert texts(grid.rows[0])[2:] == [
-        *("Gaussian process, tuned", "1.00", "90.0 %", "0.000000200", "3.00", "2.50", "–", "–", "Everywhere", "80.0 %"),
+        *(
+            "Gaussian process, tuned",
+            "0.750",
+            "1.00",
+            "0.875",
+            "90.0 %",
+            "0.000000200",
+            "3.00",
+            "2.50",
+            "–",
+            "–",
+            "Everywhere",
+            "80.0 %",
+        ),
     ]

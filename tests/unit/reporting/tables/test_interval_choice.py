@@ -105,8 +105,8 @@ def test_where_they_differ_a_sentence_says_why() -> None:
     sentences = why_another_is_deployed(choice(), TITLES)
     assert set(sentences) == {"arm", "rod"}
     assert sentences["arm"] == (
-        "Chosen is CQR (Gradient boosting, tuned), of the lowest cross-validated Winkler score; it has quantile "
-        "regressors of its own and surrounds no point model, so deployed is By spread (Gaussian process, tuned), the "
-        "best around the deployed model."
+        "Chosen is CQR (Gradient boosting, tuned), of the lowest typical Winkler score, cross-validated; it has "
+        "quantile regressors of its own and surrounds no point model, so deployed is By spread (Gaussian process, "
+        "tuned), the best around the deployed model."
     )
     assert sentences["rod"].endswith("so none is deployed.")
