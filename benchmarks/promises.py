@@ -15,6 +15,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from sklearn.linear_model import LinearRegression
 from sklearn.pipeline import make_pipeline
 from sklearn.preprocessing import PolynomialFeatures
@@ -32,7 +33,7 @@ LEVEL = 0.9
 LAG, BACKLASH, DRIFT_MM, ZERO_MM, NOISE_MM = 0.9, 0.1, 4.0, 2.0, 0.2
 
 
-def recording(n_rows: int, rng: np.random.Generator) -> tuple[Samples, Array]:
+def recording(n_rows: int, rng: np.random.Generator) -> tuple[Samples, NDArray[np.int64]]:
     """A trajectory of a robot that lags, has play, drifts and is switched off now and then; and the trial of each row.
 
     Commands walk at random between -1 and 1, so that rows in turn are alike. Of lag, play, drift and sessions each is
@@ -54,7 +55,7 @@ def recording(n_rows: int, rng: np.random.Generator) -> tuple[Samples, Array]:
     poses = np.column_stack([40 * np.sin(first), 40 * np.sin(second), 100 - 10 * first**2 - 8 * second**2])
     poses += NOISE_MM * rng.standard_normal(poses.shape)
     n_trials = int(rng.integers(8, 40))
-    trial = np.arange(n_rows) * n_trials // n_rows
+    trial = (np.arange(n_rows) * n_trials // n_rows).astype(np.int64)
     if has[2]:
         poses += DRIFT_MM * np.linspace(0, 1, n_rows)[:, None] * rng.standard_normal(3)
     if has[3]:

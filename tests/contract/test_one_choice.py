@@ -177,7 +177,9 @@ def summarised(run: Path, table: pd.DataFrame) -> Any:
     """What campaigns compare as the deployed model."""
     table.to_csv(run / "table.csv", index=False)
     layout = Layout(
-        *(f"{run}/{name}" for name in ("table.parquet", "dataset.json", "data_card.json")),
+        table=f"{run}/table.parquet",
+        description=f"{run}/dataset.json",
+        data_card=f"{run}/data_card.json",
         predictions=f"{run}/{{model}}_{{preset}}.parquet",
         intervals=f"{run}/{{method}}.parquet",
     )

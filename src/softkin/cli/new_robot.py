@@ -71,7 +71,9 @@ def show_and_write(
         print(f"Question: {question.text}\nAnswers: {told} (make: ANSWER=1 or 2)", file=sys.stderr)
         if write:
             raise DataError(
-                f"a question is open: {question.text}", where=path, fix="answer with --answer (make: ANSWER=1 or 2)"
+                f"a question is open: {question.text}",
+                where=path,
+                fix="answer by --answer, or with make by ANSWER=1 or 2",
             )
     subsets = table_file.read(path, dataset=name, source=entry)
     print("rows: " + ", ".join(f"{subset} {len(rows)}" for subset, rows in subsets.items()), file=sys.stderr)

@@ -28,8 +28,10 @@ SHOWN = {"mean_informative": "", "joint": "joint_"}
 REGIONS = "joint_regions"
 #: Milliseconds by which these runs start before the models: the UI loads a hundred runs, newest first.
 MODELS_FIRST = 1000
-METRICS = ("coverage", "mean_width_mm", "winkler_mm", "winkler_without_gross_mm", "crps_mm", "size_mm")
-METRICS += ("infinite_share", "crossing_share")
+METRICS = (
+    *("coverage", "mean_width_mm", "winkler_mm", "winkler_without_gross_mm", "crps_mm", "size_mm"),
+    *("infinite_share", "crossing_share"),
+)
 
 
 def log_intervals(

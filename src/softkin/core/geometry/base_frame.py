@@ -32,9 +32,9 @@ STARTS = (0.5, 1.0, 2.0, 4.0)
 REFINED_STARTS = 4
 #: An axis less than this (rad) off z counts as z: the squares of such numbers may underflow.
 PARALLEL = 1e-15
-#: A marker trembles at the base where it moves by at most these shares of what the marker that moves most does, and
-#: the one that moves least after it: along an evenly marked arm each moves by a quarter of the next or more.
-TREMBLES, TREMBLES_BESIDE = 0.01, 0.05
+#: A marker hardly moves, and is the base, where it moves by at most these shares of what the marker that moves most
+#: does, and the one that moves least after it: along an evenly marked arm each moves by a quarter of the next or more.
+HARDLY, HARDLY_BESIDE = 0.01, 0.05
 #: An estimated base is out of reach where it is farther from the nearest marker than the robot is long; of a single
 #: marker no length is known, but no robot is so many times as long as its tip moves.
 LENGTHS_OF_ONE_MARKER = 10.0
@@ -105,14 +105,14 @@ def base_frame(commands: Array, points: Array, declared: Mapping[str, Any] | Non
 
 def markers_at_the_base(points: Array) -> NDArray[np.bool_]:
     """Mask (n_markers,) of the markers of `points` (n_rows, n_markers, 3) that never move; where there are none, of the
-    one that only trembles, if there is one.
+    one that hardly moves, if there is one.
     """
     still = np.asarray(np.ptp(points, axis=0).max(axis=1) <= CONSTANT_RANGE_MM)
     if still.any() or len(still) < 2:
         return still
     moved = np.median(np.linalg.norm(points - np.median(points, axis=0), axis=2), axis=0)
     least, beside = np.argsort(moved, kind="stable")[:2]
-    still[least] = moved[least] <= min(TREMBLES * moved.max(), TREMBLES_BESIDE * moved[beside])
+    still[least] = moved[least] <= min(HARDLY * moved.max(), HARDLY_BESIDE * moved[beside])
     return still
 
 

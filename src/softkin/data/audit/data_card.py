@@ -134,7 +134,7 @@ def _base(train: Samples, declared: Mapping[str, Any]) -> dict[str, Any]:
     rest = "estimated"
     if markers_at_the_base(points).any() and not any(known):
         constant = np.ptp(points, axis=0).max(axis=1) <= CONSTANT_RANGE_MM
-        rest = "a marker that never moves" if constant.any() else "a marker that only trembles"
+        rest = "a marker that never moves" if constant.any() else "a marker that hardly moves"
     refused = {} if frame.refused_mm is None else {"refused_mm": frame.refused_mm}
     if refused:
         logger.warning(

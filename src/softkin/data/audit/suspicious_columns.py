@@ -55,13 +55,13 @@ def check(samples: Mapping[str, Samples], seed: int = 0) -> CheckResult:
         "suspicious_pairs": _pairs(commands, positions),
         "suspicious_running_number": _running(samples),
     }
-    found = {code: list(sentences) for code, sentences in found.items()}
+    said = {code: list(sentences) for code, sentences in found.items()}
     findings = [
         Finding(code, WARNING, tuple(samples), "; ".join(sentences) + ".", CONSEQUENCES[code])
-        for code, sentences in found.items()
+        for code, sentences in said.items()
         if sentences
     ]
-    return CheckResult(tuple(findings), numbers | {code: len(sentences) for code, sentences in found.items()})
+    return CheckResult(tuple(findings), numbers | {code: len(sentences) for code, sentences in said.items()})
 
 
 def _affine(commands: Array, positions: Array) -> Iterator[str]:

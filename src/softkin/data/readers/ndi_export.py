@@ -23,7 +23,7 @@ def open_table(path: Path, _source: Mapping[str, Any]) -> Table:
     rows = rows_of_export(path)
     top = next((line for line, row in enumerate(rows) if row[:1] == ["Frame"]), None)
     if top is None:
-        raise DataError("an export of NDI without its row of names", fix="export it anew with its header")
+        raise DataError("an export of NDI without its row of names", fix="export again with the header")
     lines = [row[0].partition(":") for row in rows[:top] if row]
     told = {key.strip(): value.strip() for key, _, value in lines}
     frames = rows[top + 1 :]
@@ -34,7 +34,7 @@ def open_table(path: Path, _source: Mapping[str, Any]) -> Table:
         raise DataError(
             f"{len(frames)} frames, but its first line says {wanted}",
             where="the whole file",
-            fix="export it anew: it was cut off, or frames were deleted by hand",
+            fix="export again; this file was cut off, or frames were deleted by hand",
         )
     rate, unit, names = told.get("Frequency", ""), told.get("Units", ""), rows[top]
     units = ["" if place == 0 else unit for place in range(len(names))]

@@ -7,10 +7,9 @@ from pathlib import Path
 import pytest
 import yaml
 
-from softkin.core.samples import SUBSETS, Samples
+from softkin.core.samples import ROWS_FOR_95_PERCENT, SUBSETS, Samples
 from softkin.data.audit import CHECKS
 from softkin.data.audit.cleaning import cleaned
-from softkin.data.audit.few_calibration_rows import ENOUGH_ROWS
 from softkin.data.audit.findings import NOTE, Finding
 from softkin.data.prepare import prepare
 from softkin.data.table import read_subset
@@ -46,7 +45,7 @@ def alarms(n_rows: int, n_commands: int, n_markers: int, noise_mm: float, n_seed
 def of_few_rows(n_rows: int, n_seeds: int) -> list[str]:
     """The one finding that a clean robot has, where `validation` is too small for intervals at 95 %."""
     n_validation = len(clean_robot(n_rows, 1, 1, 0.0, 0)["validation"])
-    return ["few_calibration_rows"] * n_seeds if n_validation < ENOUGH_ROWS else []
+    return ["few_calibration_rows"] * n_seeds if n_validation < ROWS_FOR_95_PERCENT else []
 
 
 @pytest.mark.parametrize("size", ROBOTS, ids=str)
