@@ -79,7 +79,8 @@ class RecordedRun:
     def fitted(self, samples: Samples) -> Any:
         """The regressor of this run, fitted on `samples`."""
         models = [fitted_model(member.spec, member.settings, samples) for member in self.members]
-        return weighted_mean(models, [member.weight for member in self.members])
+        weights, names = [member.weight for member in self.members], [member.spec.name for member in self.members]
+        return weighted_mean(models, weights, names)
 
     def memory(self) -> str:
         """What the member is told that is told most of the commands before."""

@@ -11,6 +11,7 @@ from softkin.core.escaping import markdown_text
 from softkin.core.metrics.interval import fewest_commands
 from softkin.core.samples import EXTRAPOLATION, TEST
 from softkin.data.audit.findings import counted
+from softkin.models.estimators.weighted_mean import composition
 from softkin.reporting.tables.numbers import assessed_text, number_text, share_text
 from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.intervals.spec import MARGINAL
@@ -70,7 +71,8 @@ def model_card(
     commands = counted(description["n_commands"], "command")
     markers = counted(description["n_markers"], "marker")
     lines += [
-        f"{model.spec.title} ({model.preset} preset): {commands} to the position of {markers}, with intervals by "
+        f"{model.spec.title} ({model.preset} preset){composition(model.estimator)}: "
+        f"{commands} to the position of {markers}, with intervals by "
         f"{model.method.title}.",
         "",
         f"| rows | mean marker error, mm | 95 % below, mm | RMSE, mm | {percent} intervals cover | mean width, mm | "

@@ -154,7 +154,8 @@ def fit_ensemble(
         study = {"n_trials": len(steps.weights), "n_pruned": 0, "cpu_seconds": watch.cpu_seconds}
         write_json(of_preset.parameters, about | finite | study)
         write_steps(steps, of_preset.trials)
-        estimator = weighted_mean([load_model(members[run].model) for run in best], list(best.values()))
+        models, names = [load_model(members[run].model) for run in best], [" ".join(run) for run in best]
+        estimator = weighted_mean(models, list(best.values()), names)
         with replacing(of_preset.model) as temporary:
             joblib.dump(estimator, temporary, compress=3)
         microseconds = predict(

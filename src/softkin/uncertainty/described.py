@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from softkin.core.samples import Array
+from softkin.models.estimators.weighted_mean import composition
 from softkin.uncertainty.intervals.spec import MARGINAL, NO_GUARANTEE, WEAK
 from softkin.uncertainty.promise import BY_BLOCK
 
@@ -22,9 +23,10 @@ def described(robot: Any) -> str:
     """Robot, model, method, error inside and outside, promise, data, date; what is not known has no line."""
     known, about = robot.known, robot.about
     n_commands, n_markers = robot.train.commands.shape[1], known.truth.shape[1] // 3
+    members, n_rows = composition(robot.estimator), len(robot.train.commands)
     lines = {
         "robot": f"{robot.dataset}, {_counted(n_commands, 'command')} to {_counted(n_markers, 'marker')}",
-        "model": f"{robot.spec.title} ({robot.preset}), fitted on {len(robot.train.commands)} rows",
+        "model": f"{robot.spec.title} ({robot.preset}){members}, fitted on {n_rows} rows",
         "intervals": f"{robot.method.title}, calibrated on {len(known.truth)} rows",
         "inside": f"{_marker_error(known.truth - known.calibration):.3g} mm mean marker error on the calibration set",
         "outside": "nothing is known of errors in extrapolation",

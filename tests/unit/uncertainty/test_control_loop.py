@@ -52,7 +52,7 @@ def test_an_ensemble_is_followed_like_any_model(robot: CalibratedModel) -> None:
     line = fitted_model(
         MODELS["lr"], FitSettings({}, True, 0, 1, memory={"memory": "none", "zeros": True}), robot.train
     )
-    mean = weighted_mean([robot.estimator, line], [0.75, 0.25])
+    mean = weighted_mean([robot.estimator, line], [0.75, 0.25], ["gp tuned", "lr outer"])
     held_out = ROWS.take(np.arange(0, 466, 4))
     model = FittedModel("arm", ENSEMBLES["ensemble"], "outer", mean, robot.train)
     both = pickle.loads(pickle.dumps(calibrated(model, INTERVAL_METHODS["scp_crepes"], held_out)))
@@ -63,7 +63,7 @@ def test_an_ensemble_is_followed_like_any_model(robot: CalibratedModel) -> None:
     )
     state = both.start(session=1)
     np.testing.assert_allclose([state.step(command).position for command in first.commands], followed)
-    assert "Ensemble (outer)" in repr(both)
+    assert "Ensemble (outer) of 75 % gp tuned, 25 % lr outer, fitted on" in repr(both)
     known, unknown = (both.start(session=session).step(first.commands[0]) for session in (1, None))
     assert (unknown.upper - unknown.lower)[0] > (known.upper - known.lower)[0]
     moved = both.recalibrate(first.commands[:20], both.follow(first.commands[:20]) + 2.0)

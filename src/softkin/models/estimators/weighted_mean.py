@@ -13,12 +13,13 @@ from softkin.models.estimators.in_sessions import InSessions
 
 class WeightedMean:
     """`members` are fitted and predict positions (n_rows, n_coordinates) in mm; `weights` are as many, none negative,
-    and add up to 1.
+    and add up to 1; `names` are what people call them.
     """
 
-    def __init__(self, members: Sequence[Any], weights: Sequence[float]) -> None:
+    def __init__(self, members: Sequence[Any], weights: Sequence[float], names: Sequence[str]) -> None:
         self.members = members
         self.weights = weights
+        self.names = names
 
     def predict(self, X: Array) -> Array:
         """Positions (n_rows, n_coordinates) in mm at commands, or inputs of a recording, X."""
@@ -31,10 +32,11 @@ class MeanInSessions(InSessions):
     Each member is told of earlier commands what it was fitted with.
     """
 
-    def __init__(self, members: Sequence[Any], weights: Sequence[float]) -> None:
+    def __init__(self, members: Sequence[Any], weights: Sequence[float], names: Sequence[str]) -> None:
         super().__init__(None, members[0].robot, zeros=any(member.zeros for member in members))
         self.members = members
         self.weights = weights
+        self.names = names
         self.features_, self.sessions_ = members[0].features_, members[0].sessions_
         self.zeros_ = weighted_sum([member.zeros_ for member in members], weights)
 
@@ -44,12 +46,20 @@ class MeanInSessions(InSessions):
         return weighted_sum([member.predict(inputs) for member in self.members], self.weights)
 
 
-def weighted_mean(members: Sequence[Any], weights: Sequence[float]) -> Any:
+def weighted_mean(members: Sequence[Any], weights: Sequence[float], names: Sequence[str]) -> Any:
     """The fitted regressor of these fitted members; a member alone is that itself."""
     if len(members) == 1:
         return members[0]
     kind = MeanInSessions if isinstance(members[0], InSessions) else WeightedMean
-    return kind(members, weights)
+    return kind(members, weights, names)
+
+
+def composition(estimator: Any) -> str:
+    """' of 75 % gp outer, 25 % lr tuned', the largest weight first; empty where the regressor is no mean."""
+    if not isinstance(estimator, (WeightedMean, MeanInSessions)):
+        return ""
+    ordered = sorted(zip(estimator.weights, estimator.names, strict=True), key=lambda member: -member[0])
+    return " of " + ", ".join(f"{weight:.0%} {name}".replace("%", " %") for weight, name in ordered)
 
 
 def weighted_sum(arrays: Sequence[Array], weights: Sequence[float]) -> Array:

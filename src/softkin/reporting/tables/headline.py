@@ -66,7 +66,7 @@ def headline(
 
 def _errors(selected: pd.DataFrame, point: pd.DataFrame, width: int) -> list[str]:
     """Lines on the errors of the deployed models."""
-    lines = [f"  {'dataset':<{width}}{'model':<14}{'test':>13}{'95 % below':>13}{'extrapolation':>15}"]
+    lines = [f"  {'dataset':<{width}}{'model':<16}{'test':>13}{'95 % below':>13}{'extrapolation':>15}"]
     remarks = []
     scores = point.set_index(["dataset", "model", "preset", "subset"])
     for row in selected.itertuples():
@@ -75,7 +75,7 @@ def _errors(selected: pd.DataFrame, point: pd.DataFrame, width: int) -> list[str
         )
         mean, p95 = test["euclidean_mean_mm"], test["euclidean_p95_mm"]
         model, beyond = f"{row.model} {row.preset}", number_text(extrapolation["euclidean_mean_mm"])
-        lines.append(f"  {row.dataset:<{width}}{model:<14}{number_text(mean):>13}{number_text(p95):>13}{beyond:>15}")
+        lines.append(f"  {row.dataset:<{width}}{model:<16}{number_text(mean):>13}{number_text(p95):>13}{beyond:>15}")
         if mean > p95:
             remarks.append(f"  {row.dataset}: a few gross errors set the mean, which exceeds the 95th percentile.")
     aim = AIMS[selected["objective"].iloc[0]]
@@ -87,13 +87,13 @@ def _intervals(choice: pd.DataFrame, width: int) -> list[str]:
     deployed = deployed_intervals(choice)
     level = share_text(deployed["confidence_level"].iloc[0], 0)
     lines = ["", f"  {level} intervals of the calibrated models, mean over moving coordinates", ""]
-    columns = f"{'around':<14}{'method':<14}{'width (mm)':>13}{'test':>9}{'extrapolation':>15}"
+    columns = f"{'around':<16}{'method':<14}{'width (mm)':>13}{'test':>9}{'extrapolation':>15}"
     lines.append(f"  {'dataset':<{width}}{columns}")
     for row in deployed.itertuples():
         run, size = f"{row.model} {row.preset}", number_text(row.test_mean_width_mm)
         beyond = assessed_text(row.extrapolation_coverage, row.extrapolation_assessable)
         shares = f"{share_text(row.test_coverage):>9}{beyond:>15}"
-        lines.append(f"  {row.dataset:<{width}}{run:<14}{row.interval_method:<14}{size:>13}{shares}")
+        lines.append(f"  {row.dataset:<{width}}{run:<16}{row.interval_method:<14}{size:>13}{shares}")
     return [*lines, "", *_claims(choice, deployed), *_not_assessable(deployed), *_not_deployed(choice), ""]
 
 
@@ -115,10 +115,10 @@ def _whole_poses(scores: pd.DataFrame, choice: pd.DataFrame, width: int) -> list
         return []
     level = share_text(choice["confidence_level"].iloc[0], 0)
     lines = [f"  {level} joint intervals of the calibrated models, which hold all moving coordinates at once", ""]
-    lines.append(f"  {'dataset':<{width}}{'shape':<14}{'':<14}{'size (mm)':>13}{'test':>9}{'extrapolation':>15}")
+    lines.append(f"  {'dataset':<{width}}{'shape':<16}{'':<14}{'size (mm)':>13}{'test':>9}{'extrapolation':>15}")
     for row in scores.itertuples():
         shares = f"{share_text(row.test):>9}{assessed_text(row.extrapolation, row.assessable):>15}"
-        lines.append(f"  {row.Index:<{width}}{row.shape:<14}{'':<14}{number_text(row.size_mm):>13}{shares}")
+        lines.append(f"  {row.Index:<{width}}{row.shape:<16}{'':<14}{number_text(row.size_mm):>13}{shares}")
     least, most = (share_text(share, 0) for share in (scores["single_test"].min(), scores["single_test"].max()))
     held = least if least == most else f"{least} to {most}"
     said = f"  Intervals of single coordinates hold a whole pose of test in {held} of cases."

@@ -10,12 +10,18 @@ import pytest
 from softkin.core.samples import Samples
 from softkin.models import MODELS
 from softkin.models.estimators.in_sessions import InSessions
-from softkin.models.estimators.weighted_mean import MeanInSessions, WeightedMean, weighted_mean, weighted_sum
+from softkin.models.estimators.weighted_mean import (
+    MeanInSessions,
+    WeightedMean,
+    composition,
+    weighted_mean,
+    weighted_sum,
+)
 from softkin.training.kinematic_model import FitSettings, fitted_model
 from tests.conftest import bending_arm
 from tests.recorded_robot import recorded_arm
 
-WEIGHTS = [0.25, 0.75]
+WEIGHTS, NAMES = [0.25, 0.75], ["lr tuned", "ridge outer"]
 
 
 def members(rows: Samples) -> list[Any]:
@@ -29,10 +35,11 @@ def members(rows: Samples) -> list[Any]:
 def test_it_predicts_the_weighted_mean_and_is_the_same_when_stored() -> None:
     rows, probe = bending_arm(60), bending_arm(20, seed=1).commands
     of_members = members(rows)
-    mean = weighted_mean(of_members, WEIGHTS)
+    mean = weighted_mean(of_members, WEIGHTS, NAMES)
     assert isinstance(mean, WeightedMean)
     expected = 0.25 * of_members[0].predict(probe) + 0.75 * of_members[1].predict(probe)
     np.testing.assert_allclose(mean.predict(probe), expected, rtol=1e-12)
+    assert composition(mean) == " of 75 % ridge outer, 25 % lr tuned"
     file = io.BytesIO()
     joblib.dump(mean, file)
     file.seek(0)
@@ -43,7 +50,7 @@ def test_it_predicts_the_weighted_mean_and_is_the_same_when_stored() -> None:
 def recorded() -> tuple[Samples, list[Any], Any]:
     rows = recorded_arm(300, backlash=0.05, zeros_mm=(0.0, 3.0, -1.5))
     of_members = members(rows)
-    return rows, of_members, weighted_mean(of_members, WEIGHTS)
+    return rows, of_members, weighted_mean(of_members, WEIGHTS, NAMES)
 
 
 def test_of_recorded_rows_each_member_is_told_what_it_was_fitted_with(recorded: Any) -> None:
@@ -70,5 +77,6 @@ def test_it_knows_the_sessions_and_the_mean_of_their_zeros(recorded: Any) -> Non
 
 def test_a_member_alone_is_that_itself() -> None:
     (line, _), array = members(bending_arm(30)), np.ones(3)
-    assert weighted_mean([line], [1.0]) is line
+    assert weighted_mean([line], [1.0], ["lr tuned"]) is line
+    assert composition(line) == ""
     assert weighted_sum([array], [1.0]) is array
