@@ -26,7 +26,7 @@ export MPLCONFIGDIR := $(CURDIR)/.venv/cache/matplotlib
 endif
 
 .PHONY: help run demo campaign refit schedule prune unlock new-robot test test-workflow test-others test-run lint ui store report verify
-.PHONY: gallery numbers results-page
+.PHONY: gallery numbers results-page single-rows
 .PHONY: snakemake-report campaigns campaign-slurm coverage standins timings benchmark benchmark-large benchmark-pruning benchmark-shells
 .PHONY: benchmark-figures benchmark-commands benchmark-many-robots benchmark-recalibration benchmark-choice
 .PHONY: environment clean ui-screenshot bad-inputs-page faults-page
@@ -182,6 +182,10 @@ standins: .venv/installed
 # What the tables of a finished run of the default configuration say: to compare before and after a change.
 numbers: .venv/installed
 	@$(BIN)/python -m tools.print_numbers
+
+# Which numbers and verdicts of a finished run hang on a single row; it ends with 1 where a verdict does.
+single-rows: .venv/installed
+	@$(BIN)/python -m tools.single_rows
 
 # resources/timings.csv, which the estimate of the time left starts from. It takes a run of the default configuration that
 # was made here alone on the machine, from nothing.

@@ -27,6 +27,7 @@ from softkin.reporting.page.marks import Marks, kinds
 from softkin.reporting.page.provenance import data_grid, what_was_run
 from softkin.reporting.page.recorded import recorded_grid
 from softkin.reporting.page.scores import choice_grid, interval_grid, point_grid
+from softkin.reporting.page.singles import read_singles
 from softkin.reporting.tables.published import summary
 from softkin.reporting.titles import Titles
 
@@ -117,10 +118,11 @@ def _read(path: Path) -> pd.DataFrame:
 
 def _scores(frames: Mapping[str, pd.DataFrame], titles: Titles, marks: Marks) -> list[Grid]:
     """The tables of scores; those on searched runs and target spaces where there are any."""
-    choices, level = read_choices(frames), float(frames["interval_choice"]["confidence_level"].iloc[0])
+    choices, singles = read_choices(frames), read_singles(frames)
+    level = float(frames["interval_choice"]["confidence_level"].iloc[0])
     grids = [
-        point_grid(frames["point_metrics"], titles, marks, choices),
-        choice_grid(frames["interval_choice"], titles, marks),
+        point_grid(frames["point_metrics"], titles, marks, choices, singles),
+        choice_grid(frames["interval_choice"], titles, marks, singles),
         interval_grid(frames["interval_metrics"], titles, level, marks, choices),
     ]
     if "searched_runs" in frames:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pandas as pd
 
 from softkin.core.samples import TEST
@@ -9,22 +11,29 @@ from softkin.reporting.page.choices import Choices, marks_of_candidate
 from softkin.reporting.page.grid import Cell, Column, Grid, filtered_columns, number, number_columns, share
 from softkin.reporting.page.interval_rows import interval_rows
 from softkin.reporting.page.marks import Marks
+from softkin.reporting.page.singles import Singles
 from softkin.reporting.tables.interval_choice import why_another_is_deployed
 from softkin.reporting.tables.numbers import assessed_text, share_text
+from softkin.reporting.tables.single_rows import RATIO, Number
 from softkin.reporting.titles import Titles
 
 SUBSET = Column("Rows", filtered=True, preset=TEST)
 
 
-def point_grid(scores: pd.DataFrame, titles: Titles, marks: Marks, choices: Choices) -> Grid:
-    """One row per robot, subset, model and preset; the deployed run is marked."""
+def point_grid(scores: pd.DataFrame, titles: Titles, marks: Marks, choices: Choices, singles: Singles) -> Grid:
+    """One row per robot, subset, model and preset; the deployed run is marked, and numbers that hang on one row."""
     rows = [
         [
             Cell(row.dataset),
             Cell(row.subset, marks.of(row.dataset, row.subset)),
             Cell(titles.models[row.model], choices.of_run(row.dataset, row.model, row.preset)),
             Cell(row.preset),
-            *map(number, (row.euclidean_mean_mm, row.euclidean_p95_mm, row.rmse_mm, row.mae_mm, row.r2)),
+            *(
+                singles.marked(
+                    number(getattr(row, metric)), Number(row.dataset, row.subset, row.model, row.preset, metric)
+                )
+                for metric in ("euclidean_mean_mm", "euclidean_p95_mm", "rmse_mm", "mae_mm", "r2")
+            ),
             *map(number, (row.mape_percent, row.fit_seconds, row.predict_us_per_row)),
         ]
         for row in scores.itertuples()
@@ -80,7 +89,7 @@ def interval_grid(metrics: pd.DataFrame, titles: Titles, level: float, marks: Ma
     return Grid("intervals", "Intervals of every method", sentence, columns, rows, "tables/interval_metrics.csv")
 
 
-def choice_grid(choice: pd.DataFrame, titles: Titles, marks: Marks) -> Grid:
+def choice_grid(choice: pd.DataFrame, titles: Titles, marks: Marks, singles: Singles) -> Grid:
     """One row per robot and candidate; the chosen and the deployed interval are marked, and why they differ is said."""
     rows = [
         [
@@ -90,7 +99,8 @@ def choice_grid(choice: pd.DataFrame, titles: Titles, marks: Marks) -> Grid:
             *map(number, (row.cv_winkler_typical_mm, row.cv_winkler_mm, row.cv_winkler_without_gross_mm)),
             share(row.test_coverage),
             *map(number, (row.test_mean_width_mm, row.test_winkler_mm, row.test_winkler_without_gross_mm)),
-            *map(number, (row.winkler_ratio_to_paper, row.winkler_ratio_to_paper_without_gross)),
+            singles.marked(number(row.winkler_ratio_to_paper), _ratio(row)),
+            number(row.winkler_ratio_to_paper_without_gross),
             Cell(titles.methods[row.outside]),
             Cell(assessed_text(row.extrapolation_coverage, row.extrapolation_assessable)),
         ]
@@ -116,3 +126,8 @@ def choice_grid(choice: pd.DataFrame, titles: Titles, marks: Marks) -> Grid:
     reasons = [f"{dataset}: {why}" for dataset, why in why_another_is_deployed(choice, titles).items()]
     file = "tables/interval_choice.csv"
     return Grid("choice", "Chosen and deployed intervals", sentence, columns, rows, file, reasons)
+
+
+def _ratio(row: Any) -> Number:
+    """Key of the ratio of a row of interval_choice."""
+    return Number(row.dataset, TEST, row.model, row.preset, RATIO, row.interval_method)

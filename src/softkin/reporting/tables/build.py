@@ -68,6 +68,7 @@ def build_tables(tables: Tables, *, titles: Titles, folder: Path, caution: str |
         found,
         caution,
         frames["interval_metrics"],
+        frames["left_out"],
     )
     write_text(folder / "headline.txt", text)
 

@@ -15,6 +15,7 @@ from softkin.data.audit.findings import LEAK, NOTE
 from softkin.reporting.tables.interval_choice import chosen_intervals, deployed_intervals
 from softkin.reporting.tables.joint_intervals import joint_scores
 from softkin.reporting.tables.numbers import NOT_ASSESSABLE, assessed_text, number_text, share_text
+from softkin.reporting.tables.single_rows import Hanging, Number, hanging, of_runs
 from softkin.uncertainty.intervals.spec import AUTO
 
 WIDTH = 90
@@ -35,6 +36,7 @@ def headline(
     findings: Mapping[str, Sequence[Mapping[str, Any]]] | None = None,
     caution: str | None = None,
     metrics: pd.DataFrame | None = None,
+    left_out: pd.DataFrame | None = None,
 ) -> str:
     """Plain text of at most `WIDTH` columns.
 
@@ -46,6 +48,7 @@ def headline(
         findings: of the audit of each dataset, as data_card.json has them; none by default.
         caution: what the configuration says of its own numbers.
         metrics: as in interval_metrics.csv; None: nothing is said of whole poses.
+        left_out: as in left_out.csv; None: no number is marked that hangs on a single row.
     """
     width = 2 + max(18, *map(len, choice["dataset"]))
     lines = ["", "softkin: forward kinematics, mean error of a marker position (mm)", ""]
@@ -55,7 +58,7 @@ def headline(
             "",
         ]
     if selected is not None:
-        lines += _errors(selected, point, width)
+        lines += _errors(selected, point, {} if left_out is None else hanging(left_out), width)
     lines += _intervals(choice, width)
     if metrics is not None:
         lines += _whole_poses(joint_scores(metrics, deployed_intervals(choice)), choice, width)
@@ -64,8 +67,9 @@ def headline(
     return "\n".join([*lines, ""])
 
 
-def _errors(selected: pd.DataFrame, point: pd.DataFrame, width: int) -> list[str]:
-    """Lines on the errors of the deployed models."""
+def _errors(selected: pd.DataFrame, point: pd.DataFrame, found: Mapping[Number, Hanging], width: int) -> list[str]:
+    """Lines on the errors of the deployed models; a mean that hangs on a single row is marked."""
+    marked = of_runs(found, selected, "euclidean_mean_mm")
     lines = [f"  {'dataset':<{width}}{'model':<16}{'test':>13}{'95 % below':>13}{'extrapolation':>15}"]
     remarks = []
     scores = point.set_index(["dataset", "model", "preset", "subset"])
@@ -74,11 +78,16 @@ def _errors(selected: pd.DataFrame, point: pd.DataFrame, width: int) -> list[str
             scores.loc[(row.dataset, row.model, row.preset, subset)] for subset in (TEST, EXTRAPOLATION)
         )
         mean, p95 = test["euclidean_mean_mm"], test["euclidean_p95_mm"]
-        model, beyond = f"{row.model} {row.preset}", number_text(extrapolation["euclidean_mean_mm"])
-        lines.append(f"  {row.dataset:<{width}}{model:<16}{number_text(mean):>13}{number_text(p95):>13}{beyond:>15}")
+        model = f"{row.model} {row.preset}"
+        inside, beyond = (
+            number_text(value) + "*" * ((row.dataset, subset) in marked)
+            for value, subset in ((mean, TEST), (extrapolation["euclidean_mean_mm"], EXTRAPOLATION))
+        )
+        lines.append(f"  {row.dataset:<{width}}{model:<16}{inside:>13}{number_text(p95):>13}{beyond:>15}")
         if mean > p95:
             remarks.append(f"  {row.dataset}: a few gross errors set the mean, which exceeds the 95th percentile.")
     aim = AIMS[selected["objective"].iloc[0]]
+    remarks += [f"  * {dataset}, {subset}: {what.text}." for (dataset, subset), what in marked.items()]
     return [*lines, "", f"  The model is chosen for {aim}, on `train` alone.", *remarks]
 
 

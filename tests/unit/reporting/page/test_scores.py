@@ -2,6 +2,8 @@ from __future__ import annotations
 
 from softkin.reporting.page.choices import read_choices
 from softkin.reporting.page.scores import choice_grid, interval_grid, point_grid
+from softkin.reporting.page.singles import Singles
+from softkin.reporting.tables.single_rows import RATIO, Hanging, Number
 from tests.unit.reporting.page.frames import LEVELS, MODELS, NO_MARKS, PRESETS, ROBOTS, TITLES, frames, kinds, texts
 
 CHOICES = read_choices(frames())
@@ -9,7 +11,7 @@ CHOICES = read_choices(frames())
 
 def test_every_run_has_its_errors_and_the_deployed_one_is_marked() -> None:
     table = frames()["point_metrics"]
-    grid = point_grid(table, TITLES, NO_MARKS, CHOICES)
+    grid = point_grid(table, TITLES, NO_MARKS, CHOICES, Singles({}))
     assert len(grid.rows) == len(table)
     assert texts(grid.rows[2]) == [
         *("arm", "test", "Linear regression", "paper", *["0.0100"] * 5, "0.0100", "0.100", "2.00"),
@@ -20,7 +22,7 @@ def test_every_run_has_its_errors_and_the_deployed_one_is_marked() -> None:
 
 def test_every_number_of_a_table_has_one_format() -> None:
     """Errors from 1e-4 to 1e4 mm stand in one column: none has an exponent."""
-    grid = point_grid(frames()["point_metrics"], TITLES, NO_MARKS, CHOICES)
+    grid = point_grid(frames()["point_metrics"], TITLES, NO_MARKS, CHOICES, Singles({}))
     errors = {row[4].text for row in grid.rows}
     assert {"0.000100", "1.00", "10000"} <= errors
     assert not any("e" in text for text in errors)
@@ -40,7 +42,7 @@ def test_one_row_per_interval_method_and_level() -> None:
 
 
 def test_of_two_robots_one_has_another_interval_deployed_than_chosen() -> None:
-    grid = choice_grid(frames()["interval_choice"], TITLES, NO_MARKS)
+    grid = choice_grid(frames()["interval_choice"], TITLES, NO_MARKS, Singles({}))
     marked = [(row[0].text, row[1].text, kinds(row[1])) for row in grid.rows]
     assert marked == [
         ("arm", "System", ["chosen", "deployed"]),
@@ -67,3 +69,13 @@ def test_of_two_robots_one_has_another_interval_deployed_than_chosen() -> None:
             "80.0 %",
         ),
     ]
+
+
+def test_a_ratio_that_hangs_on_one_row_is_marked() -> None:
+    choice = frames()["interval_choice"]
+    row = choice.iloc[0]
+    key = Number(row["dataset"], "test", row["model"], row["preset"], RATIO, row["interval_method"])
+    grid = choice_grid(choice, TITLES, NO_MARKS, Singles({key: Hanging("row 3", 0.1, 2.0)}))
+    place = [column.title for column in grid.columns].index("Ratio to the paper's")
+    assert kinds(grid.rows[0][place]) == ["one row"]
+    assert kinds(grid.rows[1][place]) == []

@@ -56,6 +56,16 @@ def test_a_mean_set_by_a_few_rows_is_remarked_upon() -> None:
     assert "arm: a few gross errors set the mean" in headline(SELECTED, scores(2.0, 1.25), CHOICE, [])
 
 
+def test_a_mean_that_hangs_on_one_row_is_marked() -> None:
+    row = {"dataset": "arm", "subset": "test", "left_out": "row 3", "model": "gp", "preset": "tuned"}
+    row |= {"interval_method": "", "metric": "euclidean_mean_mm"}
+    left_out = pd.DataFrame([row | {"value": 0.5, "without": 0.02}])
+    text = headline(SELECTED, scores(0.5, 1.25), CHOICE, [], left_out=left_out)
+    assert "arm gp tuned 0.500* 1.25 1.50" in " ".join(text.split())
+    assert "* arm, test: without row 3 it is 0.0200." in text
+    assert "*" not in headline(SELECTED, scores(0.5, 1.25), CHOICE, [], left_out=left_out.assign(without=0.49))
+
+
 def test_without_tuning_there_is_no_choice_to_show() -> None:
     text = headline(None, scores(1.0, 2.0), CHOICE, [])
     assert "The model is chosen" not in text
