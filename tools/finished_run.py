@@ -12,6 +12,8 @@ from softkin.core.files import read_json
 from softkin.data.audit.findings import leaking_subsets
 from softkin.models import MODELS
 from softkin.models.ensembles import ENSEMBLES
+from softkin.reporting.tables.numbers import number_text
+from softkin.reporting.tables.single_rows import Hanging, Number, hanging
 from softkin.reporting.titles import Titles
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from softkin.uncertainty.labelled import LABELLED_METHODS
@@ -45,6 +47,16 @@ class FinishedRun:
     def datasets(self) -> list[str]:
         """Names of its datasets, in the order of the configuration."""
         return [str(name) for name in self.tables.read("selection")["dataset"].unique()]
+
+    @cached_property
+    def hanging(self) -> dict[Number, Hanging]:
+        """The numbers that hang on a single row or coordinate."""
+        left_out = self.tables.read("left_out", "interval_method", "left_out")
+        return hanging(left_out.fillna({"interval_method": ""}))
+
+    def starred(self, value: float | None, number: Number) -> str:
+        """A number as text, with a star where it hangs on a single row or coordinate."""
+        return number_text(value) + "\\*" * (number in self.hanging)
 
     def description(self, dataset: str) -> dict[str, Any]:
         """Title, rows and hash of a dataset."""

@@ -12,6 +12,7 @@ from softkin.core.samples import EXTRAPOLATION, TEST
 from softkin.evaluation.beside_oracle import BAND
 from softkin.models.spec import PAPERS_RUN
 from softkin.reporting.tables.numbers import NOT_ASSESSABLE, NOTHING, band_text, number_text, share_text
+from softkin.reporting.tables.single_rows import Number
 from softkin.uncertainty.labelled import LABELLED_METHODS
 from softkin.uncertainty.regions import REGION_METHODS
 from softkin.uncertainty.regions.spec import JOINT_INTERVALS
@@ -54,14 +55,15 @@ def _chosen(run: FinishedRun) -> str:
             papers = dict(zip([*RUN, "interval_method"], recipe, strict=False))
             shown.insert(0, papers | scores | dict.fromkeys(RATIOS, 1.0))
         for row in shown:
+            key = Number(dataset, TEST, row["model"], row["preset"], "winkler_mm", row["interval_method"])
             role = " and ".join(name for name in ("chosen", "deployed") if row.get(name)) or "the paper's recipe"
             rows.append(
                 [
                     *(run.name(dataset, TEST), role, TITLES.methods[row["interval_method"]]),
                     TITLES.run(row["model"], row["preset"]),
-                    *(share_text(row["test_coverage"]), number_text(row["test_winkler_mm"])),
+                    *(share_text(row["test_coverage"]), run.starred(row["test_winkler_mm"], key)),
                     number_text(row["test_winkler_without_gross_mm"]),
-                    *(number_text(row[name]) for name in RATIOS),
+                    *(run.starred(row[name], key._replace(metric=name)) for name in RATIOS),
                 ]
             )
     header = ["Robot", "Interval", "Method", "Around", "Coverage", "Winkler score (mm)"]

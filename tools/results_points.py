@@ -10,7 +10,8 @@ import pandas as pd
 from softkin.core.runs import PRESETS
 from softkin.core.samples import EXTRAPOLATION, SUBSETS
 from softkin.data.audit.findings import LEAK
-from softkin.reporting.tables.numbers import number_text
+from softkin.reporting.tables.numbers import number_text, share_text
+from softkin.reporting.tables.single_rows import SHARE, Number
 from softkin.reporting.tables.verdicts import BETTER, REPRODUCED, WORSE
 from tools.finished_run import TITLES, FinishedRun, table
 
@@ -92,6 +93,7 @@ def points_in_extrapolation(run: FinishedRun) -> dict[str, Any]:
         "n_robots": len(deployed),
         "n_ranked_by_shells": int((deployed["shell_rank_correlation"] > deployed["cv_rank_correlation"]).sum()),
         "n_studies": len(studies),
+        "single_row_share": share_text(SHARE, 0),
         "n_curvature": int((studies == "curvature").sum()),
         "n_ratios": int(ratios.notna().sum().sum()),
         "n_gains": int((ratios < 1).sum().sum()),
@@ -109,10 +111,12 @@ def _deployed(run: FinishedRun, deployed: pd.DataFrame) -> str:
     for row in deployed.to_dict("records"):
         dataset, errors = row["dataset"], ("rmse_mm", "mae_mm")
         papers = [printed.get((dataset, EXTRAPOLATION, metric), number_text(None)) for metric in errors]
+        keys = [Number(dataset, EXTRAPOLATION, row["model"], row["preset"], metric) for metric in errors]
         rows.append(
             [
                 *(run.name(dataset, EXTRAPOLATION), TITLES.run(row["model"], row["preset"]), row["target_space"]),
-                *(" / ".join(number_text(row[metric]) for metric in errors), " / ".join(papers)),
+                " / ".join(run.starred(row[key.metric], key) for key in keys),
+                " / ".join(papers),
                 *(number_text(row[f"{score}_rank_correlation"]) for score in ("shell", "cv")),
             ]
         )

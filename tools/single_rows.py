@@ -2,10 +2,10 @@
 
     python -m tools.single_rows [--results results] [--share 0.05]
 
-From the stored predictions and intervals, the errors and intervals of the deployed runs and the ratios of their Winkler
-scores to the paper's recipe are computed once more with each single row left out, R2 with each single coordinate. Printed
-are those that change by more than the share, with the row that changes them most; then which verdicts on the paper's
-claims would be others. With the status 1 where a verdict would.
+From stored predictions and intervals, errors of the deployed runs, scores of intervals around them and ratios to the
+paper's recipe are computed once more with each single row left out, R2 with each single coordinate. Printed are those
+that change by more than the share, with the row that changes them most; then which verdicts on the paper's claims would
+be others. The exit status is 1 where a verdict would.
 """
 
 from __future__ import annotations
@@ -65,8 +65,10 @@ def numbers(run: FinishedRun, left_out: pd.DataFrame, share: float) -> list[list
             number = f"{name} {key.model} {key.preset}"
             change = share_text(what.without / what.value - 1)
             rows.append(
-                [key.dataset, key.subset, number, number_text(what.value), what.left_out]
-                + [number_text(what.without), change]
+                [
+                    *(key.dataset, key.subset, number, number_text(what.value), what.left_out),
+                    *(number_text(what.without), change),
+                ]
             )
     return rows
 

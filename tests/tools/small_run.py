@@ -33,8 +33,18 @@ def write_small_run(results: Path) -> None:
         }
         write_json(results / robot / "data_card.json", {"findings": [leak] if robot == "finger" else []})
     (results / "tables").mkdir()
-    for name, table in {**_points(), **_published(), **_intervals(), "alarm_rates": _alarms()}.items():
+    tables = {**_points(), **_published(), **_intervals(), "alarm_rates": _alarms(), "left_out": _left_out()}
+    for name, table in tables.items():
         pd.DataFrame(table).to_csv(results / "tables" / f"{name}.csv", index=False)
+
+
+def _left_out() -> Rows:
+    """The RMSE of FINGER's deployed run in extrapolation hangs on one row, and so does a Winkler score on test."""
+    row = {"dataset": "finger", "model": "gp", "preset": "tuned", "left_out": "row 3"}
+    return [
+        row | {"subset": "extrapolation", "interval_method": "", "metric": "rmse_mm", "value": 2.0, "without": 0.1},
+        row | {"subset": "test", "interval_method": "cqr", "metric": "winkler_mm", "value": 5.13, "without": 2.0},
+    ]
 
 
 def _points() -> dict[str, Rows]:

@@ -47,7 +47,7 @@ def test_numbers_of_the_page_are_those_of_the_tables(page: str) -> None:
         f"| FINGER | extrapolation | {TITLES.models['gb']} | MAE (mm) | 4.28 | 4.56 |",
         f"| FINGER | extrapolation | {TITLES.models['gb']} | R2 | 0.97 | 0.971 | 0.910 | 3.00 |",
         f"| RMSE (mm) | 5.40 ({TITLES.models['gb']}) | 2.08 ({TITLES.models['gp']}) | better |",
-        f"| FINGER | {TITLES.run('gp', 'tuned')} | curvature | 2.00 / 1.00 | 5.40 / 4.28 | 0.100 | 0.500 |",
+        f"| FINGER | {TITLES.run('gp', 'tuned')} | curvature | 2.00\\* / 1.00 | 5.40 / 4.28 | 0.100 | 0.500 |",
         f"| My arm | {TITLES.run('lr', 'outer')} | curvature | 2.00 / 1.00 | – / – | 0.900 | 0.500 |",
         f"| {TITLES.models['lr']} | 0.500 | 0.500 |",
     ):
@@ -73,12 +73,13 @@ def test_robots_in_time_have_a_section_of_their_own(results: Path, page: str) ->
 
 
 def test_intervals_stand_beside_the_papers_recipe_and_say_their_role(page: str) -> None:
-    rows = [line.split(" | ") for line in page.splitlines() if " | 5.13 | " in line]
+    rows = [line.split(" | ") for line in page.splitlines() if " | 5.13" in line]
     assert [row[:2] for row in rows] == [
         ["| FINGER (leak)", "deployed"],
         ["| FINGER (leak)", "chosen"],
         ["| My arm", "chosen and deployed"],
     ]
+    assert [row[5] for row in rows] == ["5.13", "5.13\\*", "5.13"]  # one of them hangs on a single row
     assert "| FINGER (leak) | the paper's recipe | " in page
     around = TITLES.run("gp", "tuned")
     ratio = "1.28 (1.20 to 1.40)"
@@ -104,7 +105,7 @@ def test_without_a_published_robot_nothing_is_compared(results: Path) -> None:
     page = results.parent / "results.md"
     make_results_page(results, page)
     assert "paper's numbers" not in page.read_text()
-    assert f"| FINGER | {TITLES.run('gp', 'tuned')} | curvature | 2.00 / 1.00 | – / – |" in page.read_text()
+    assert f"| FINGER | {TITLES.run('gp', 'tuned')} | curvature | 2.00\\* / 1.00 | – / – |" in page.read_text()
 
 
 def test_a_second_time_changes_nothing_and_the_gallery_is_kept(results: Path, page: str) -> None:
