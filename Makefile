@@ -28,7 +28,7 @@ endif
 .PHONY: help run demo campaign refit schedule prune unlock new-robot test test-workflow test-others test-run lint ui store report verify
 .PHONY: gallery numbers results-page single-rows
 .PHONY: snakemake-report campaigns campaign-slurm coverage standins timings benchmark benchmark-large benchmark-pruning benchmark-shells
-.PHONY: benchmark-figures benchmark-commands benchmark-many-robots benchmark-recalibration benchmark-choice
+.PHONY: benchmark-figures benchmark-commands benchmark-many-robots benchmark-recalibration benchmark-choice benchmark-promises
 .PHONY: environment clean ui-screenshot bad-inputs-page faults-page
 
 # These targets, each with the first sentence of the comment above it.
@@ -170,6 +170,10 @@ benchmark-choice: .venv/installed
 # What a few labelled poses of a new session do to coverage and width, and how soon the alarm notices one.
 benchmark-recalibration: .venv/installed
 	$(BIN)/python -m benchmarks.recalibration $${SOFTKIN_DATA_MIRROR:+"$$SOFTKIN_DATA_MIRROR"}
+
+# Whether intervals keep what they promise on 200 simulated recordings that lag, have play, drift and shift.
+benchmark-promises: .venv/installed
+	$(BIN)/python -m benchmarks.promises
 
 # Whether the figures of a robot of 100,000 rows stay under 500 MB.
 benchmark-figures: .venv/installed

@@ -118,10 +118,8 @@ def main() -> int:
     splits: list[dict[str, Any]] = [{"method": "time", "column": "t", "blocks": n} for n in (50, 100, 200)]
     splits += [{"method": "group", "column": "trial"}, {"method": "later"}]
     worst = 1.0
-    print(
-        "split         recordings  promised  blocks  error mm   "
-        "of promised: by row  by block  width  else: by row  by block"
-    )
+    print("split         recordings  promised  blocks  error mm", end="")
+    print("   of promised: by row  by block  width  else: by row  by block")
     for options in splits:
         found = list(results(options, arguments.draws))
         kept, others = ([one for one in found if one["promised"] == is_it] for is_it in (True, False))

@@ -177,7 +177,7 @@ def _values(table: Table, names: Sequence[str], looked: Mapping[str, Any]) -> tu
         good = good[~np.isnan(good).any(axis=1)]
         if not len(good):
             raise whole from None
-        return good, {}, [f"guessed from {len(good)} rows, since the file is not readable to its end; correct it"]
+        return good, {}, [f"guessed from {len(good)} rows, since the file is not readable to its end"]
     count = int(np.isnan(values).any(axis=1).sum())
     why = f"missing: {count} of {len(values)} rows lack a number and are left out; please check"
     return values[~np.isnan(values).any(axis=1)], {"missing": "drop_rows"}, [why]

@@ -68,12 +68,12 @@ def show_and_write(
         other, why = guess_entry(path, title, listed, options, 1)
         print(entry_text(f"{name}_2", other, why), end="")
         told = "; ".join(f"{place + 1}: {what}" for place, what in enumerate(question.answers))
-        print(f"Question: {question.text}\nAnswers: {told} (make: ANSWER=1 or 2)", file=sys.stderr)
+        print(f"Question: {question.text}\nAnswers: {told} (make new-robot ANSWER=1 or 2)", file=sys.stderr)
         if write:
             raise DataError(
                 f"a question is open: {question.text}",
                 where=path,
-                fix="answer by --answer, or with make by ANSWER=1 or 2",
+                fix="run it again with --answer 1 or 2 (make new-robot ANSWER=1)",
             )
     subsets = table_file.read(path, dataset=name, source=entry)
     print("rows: " + ", ".join(f"{subset} {len(rows)}" for subset, rows in subsets.items()), file=sys.stderr)

@@ -161,8 +161,9 @@ def resplits(
     """Calibration data on all folds of the calibration rows but one, and the held-out rows, for each fold; rows of one
     `block` (n_calibration,) stay in one fold, where there are so many.
     """
-    splitter: Any = KFold(N_FOLDS, shuffle=True, random_state=seed)
     if block is not None and len(np.unique(block)) >= N_FOLDS:
-        splitter = GroupKFold(N_FOLDS, shuffle=True, random_state=seed)
-    for calibration_rows, held_out in splitter.split(data.truth, groups=block):
+        folds = GroupKFold(N_FOLDS, shuffle=True, random_state=seed).split(data.truth, groups=block)
+    else:
+        folds = KFold(N_FOLDS, shuffle=True, random_state=seed).split(data.truth)
+    for calibration_rows, held_out in folds:
         yield data.resplit(calibration_rows, held_out), held_out

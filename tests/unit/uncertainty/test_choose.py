@@ -12,7 +12,7 @@ from softkin.core.run_archive import RunArchive
 from softkin.core.runs import Run
 from softkin.core.samples import SUBSETS
 from softkin.data.table import read_subset, to_table, write_table
-from softkin.uncertainty.calibration_data import SpreadCalibration
+from softkin.uncertainty.calibration_data import PointCalibration, SpreadCalibration
 from softkin.uncertainty.choose import Resplittable, choose, deployed_choice, resplits, shown_runs
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from softkin.uncertainty.stored_outputs import StoredOutputs
@@ -214,3 +214,13 @@ def test_where_all_scores_are_infinite_the_lowest_level_decides(
     assert list(choice["model"]) == ["lr", "gp"]
     assert "tie" not in choice
     assert "too few rows for intervals at 90 %: methods are compared at 80 %" in caplog.text
+
+
+def test_rows_of_one_block_stay_in_one_fold() -> None:
+    block = np.repeat(np.arange(7), 3)
+    zero = np.zeros((21, 3))
+    data = PointCalibration(zero, zero, zero[:1], zero[:, :1], zero[:, :1], zero[:1, :1])
+    folds = [set(block[held_out].tolist()) for _, held_out in resplits(data, 0, block)]
+    assert sorted(number for fold in folds for number in fold) == list(range(7))
+    few = [held_out for _, held_out in resplits(data, 0, block % 2)]
+    assert sorted(np.concatenate(few).tolist()) == list(range(21))

@@ -176,3 +176,23 @@ def test_predicted_rows_are_in_the_order_of_the_subsets_asked_for() -> None:
     stored = pd.DataFrame({"subset": ["test", "train", "test"], "m1_x": [1.0, 2.0, 3.0], "std_m1_x": [4.0, 5.0, 6.0]})
     assert predicted_rows(stored, ["train", "test"]).tolist() == [[2.0], [1.0], [3.0]]
     assert predicted_rows(stored, ["test"], "std_").tolist() == [[4.0], [6.0]]
+
+
+def test_where_blocks_are_exchangeable_each_counts_alike(table: Path, stored: Path, tmp_path: Path) -> None:
+    frame = pd.read_parquet(table)
+    n_validation = int((frame["subset"] == "validation").sum())
+    frame["block"] = 0
+    frame.loc[frame["subset"] == "validation", "block"] = np.minimum(np.arange(n_validation), 9)
+    frame.attrs = {}
+    frame.to_parquet(tmp_path / "blocks.parquet")
+    outputs = stored_outputs_of(tmp_path / "blocks.parquet", stored)
+    assert outputs.promise is not None
+    assert outputs.promise.n_blocks == 10
+    assert len(outputs.validation) == len(outputs.calibrated) == 10 * (n_validation - 9)
+    assert (np.bincount(outputs.calibrated)[:9] == n_validation - 9).all()
+    by_row = dict(stored_outputs_of(table, stored).of(PointCalibration))
+    for run, data in outputs.of(PointCalibration):
+        np.testing.assert_array_equal(data.calibration, by_row[run].calibration[outputs.calibrated])
+        np.testing.assert_array_equal(data.truth, by_row[run].truth[outputs.calibrated])
+    for _, quantiles in outputs.of(QuantileCalibration):
+        assert quantiles.calibration.shape[1] == len(quantiles.truth) == len(outputs.validation)

@@ -32,8 +32,8 @@ STARTS = (0.5, 1.0, 2.0, 4.0)
 REFINED_STARTS = 4
 #: An axis less than this (rad) off z counts as z: the squares of such numbers may underflow.
 PARALLEL = 1e-15
-#: A marker hardly moves, and is the base, where it moves by at most these shares of what the marker that moves most
-#: does, and the one that moves least after it: along an evenly marked arm each moves by a quarter of the next or more.
+#: A marker stands at the base where it moves by at most these shares of what the marker that moves most does, and
+#: the one that moves least after it: along an evenly marked arm each moves by a quarter of the next or more.
 HARDLY, HARDLY_BESIDE = 0.01, 0.05
 #: An estimated base is out of reach where it is farther from the nearest marker than the robot is long; of a single
 #: marker no length is known, but no robot is so many times as long as its tip moves.

@@ -10,7 +10,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import combinations
 
 import numpy as np
@@ -48,20 +48,20 @@ def check(samples: Mapping[str, Samples], seed: int = 0) -> CheckResult:
     numbers = {"rows_looked_at": len(rows)}
     if len(rows) < FEWEST_ROWS:
         return CheckResult((), numbers | {"not_measured": f"fewer than {FEWEST_ROWS} rows"})
-    found = {
+    by_code: dict[str, Iterable[str]] = {
         "suspicious_affine": [*_affine(commands, positions), *_differences(commands, positions)],
         "suspicious_orientation": _unit_norms(commands),
         "suspicious_copies": _copies(commands, positions),
         "suspicious_pairs": _pairs(commands, positions),
         "suspicious_running_number": _running(samples),
     }
-    said = {code: list(sentences) for code, sentences in found.items()}
+    found = {code: list(sentences) for code, sentences in by_code.items()}
     findings = [
         Finding(code, WARNING, tuple(samples), "; ".join(sentences) + ".", CONSEQUENCES[code])
-        for code, sentences in said.items()
+        for code, sentences in found.items()
         if sentences
     ]
-    return CheckResult(tuple(findings), numbers | {code: len(sentences) for code, sentences in said.items()})
+    return CheckResult(tuple(findings), numbers | {code: len(sentences) for code, sentences in found.items()})
 
 
 def _affine(commands: Array, positions: Array) -> Iterator[str]:
@@ -157,6 +157,6 @@ def _scale(values: Array) -> Array:
     return np.asarray(np.where(spread > 0, spread, 1.0))
 
 
-def _listed(names: object) -> str:
-    shown = [str(name) for name in names]  # type: ignore[attr-defined]
+def _listed(names: Iterable[str]) -> str:
+    shown = list(names)
     return ", ".join(shown[:12]) + (f" and {len(shown) - 12} more" if len(shown) > 12 else "")

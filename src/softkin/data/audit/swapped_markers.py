@@ -1,4 +1,4 @@
-"""Check for swapped markers: rows whose distances between markers an exchange of labels would set right."""
+"""Check for swapped markers: rows whose distances between markers an exchange of labels puts right."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def check(samples: Mapping[str, Samples]) -> CheckResult:
         WARNING,
         marked,
         f"{counted(sum(numbers['rows'].values()), 'row')} have distances between markers that an exchange of labels "
-        f"would set right, among {names}.",
+        f"puts right, among {names}.",
         "The tracker mixed up its markers there, and a model learns the mean of both. relabel: true in the entry mends "
         "these rows in every subset and counts them.",
     )
