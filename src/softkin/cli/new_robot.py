@@ -15,6 +15,7 @@ from typing import Any
 
 from softkin.cli.datasets_file import append_entry, entry_text, read_key
 from softkin.cli.guess_entry import asked, guess_entry
+from softkin.cli.guess_questions import Question
 from softkin.core.errors import ConfigError, DataError, SoftkinError
 from softkin.data.entries import RESERVED
 from softkin.data.readers import table_file
@@ -66,15 +67,7 @@ def show_and_write(
     print(text, end="")
     if question is not None and answer is None:
         other, why = guess_entry(path, title, listed, options, 1)
-        print(entry_text(f"{name}_2", other, why), end="")
-        told = "; ".join(f"{place + 1}: {what}" for place, what in enumerate(question.answers))
-        print(f"Question: {question.text}\nAnswers: {told} (make new-robot ANSWER=1 or 2)", file=sys.stderr)
-        if write:
-            raise DataError(
-                f"a question is open: {question.text}",
-                where=path,
-                fix="run it again with --answer 1 or 2 (make new-robot ANSWER=1)",
-            )
+        _ask(question, entry_text(f"{name}_2", other, why), path, write)
     subsets = table_file.read(path, dataset=name, source=entry)
     print("rows: " + ", ".join(f"{subset} {len(rows)}" for subset, rows in subsets.items()), file=sys.stderr)
     if not write:
@@ -88,6 +81,23 @@ def show_and_write(
     print(
         f"Appended to {DATASETS}. In {CONFIG} write:\n\ndatasets: [{', '.join([*datasets, name])}]\n", file=sys.stderr
     )
+
+
+def _ask(question: Question, other: str, path: Path, write: bool) -> None:
+    """Print the second entry of the robot in the file at `path`, and the question between the two.
+
+    Raises:
+        DataError: one is to be written, and nobody has said which.
+    """
+    print(other, end="")
+    told = "; ".join(f"{place + 1}: {what}" for place, what in enumerate(question.answers))
+    print(f"Question: {question.text}\nAnswers: {told} (make new-robot ANSWER=1 or 2)", file=sys.stderr)
+    if write:
+        raise DataError(
+            f"a question is open: {question.text}",
+            where=path,
+            fix="run it again with --answer 1 or 2 (make new-robot ANSWER=1)",
+        )
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

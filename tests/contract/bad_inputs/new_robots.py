@@ -10,6 +10,10 @@ from tests.contract.bad_inputs.case import BadInput
 from tests.contract.bad_inputs.tables import GOOD
 
 
+#: A marker in two frames.
+FRAMES = "u1,a_x,a_y,b_x,b_y\n" + "".join(f"{n},{n * n},{n % 5},{n * n + 100},{n % 5 + 50}\n" for n in range(20))
+
+
 def of(text: str, *, file: str = "arm.csv", name: str | None = None, write: bool = False) -> Callable[[], None]:
     def provoke() -> None:
         Path("arm.csv").write_text(text)
@@ -43,6 +47,7 @@ CASES = [
     BadInput("a name in capitals", of(GOOD, name="Arm"), ("'Arm' is no name",)),
     BadInput("a name of softkin's own", of(GOOD, name="tables"), ("results/tables", "another name")),
     BadInput("a name that is taken", of(GOOD, name="finger", write=True), ("there is an entry 'finger' already",)),
+    BadInput("a question that nobody answered", of(FRAMES, write=True), ("a question is open", "--answer")),
     BadInput("an empty file", of(""), ("arm.csv", "the file is empty")),
     BadInput("a header alone", of("u1,x,y,z\n"), ("arm.csv", "no row of numbers")),
     BadInput("no header", of("1,2,3,4\n5,6,7,8\n"), ("arm.csv", "no header")),
