@@ -101,8 +101,15 @@ def guess_entry(
 
 
 def asked(path: Path, options: Mapping[str, Any] | None = None) -> Question | None:
-    """The question that the table at `path` raises; `guess_entry` takes the answer. None where it raises none."""
-    table, looked = _looked(path, options)
+    """The question that the table at `path` raises; `guess_entry` takes the answer. None where it raises none.
+
+    Raises:
+        DataError: the file cannot be read.
+    """
+    try:
+        table, looked = _looked(path, options)
+    except DataError as error:
+        raise error if error.where == str(path) else error.within(str(path)) from error
     return question_of(table.names, looked)
 
 

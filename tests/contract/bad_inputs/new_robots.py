@@ -9,7 +9,6 @@ from softkin.cli.new_robot import show_and_write
 from tests.contract.bad_inputs.case import BadInput
 from tests.contract.bad_inputs.tables import GOOD
 
-
 #: A marker in two frames.
 FRAMES = "u1,a_x,a_y,b_x,b_y\n" + "".join(f"{n},{n * n},{n % 5},{n * n + 100},{n % 5 + 50}\n" for n in range(20))
 
