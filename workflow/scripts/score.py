@@ -17,6 +17,7 @@ from softkin.training.selection import shell_runs
 from softkin.uncertainty.choose import shown_runs
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from softkin.uncertainty.labelled import LABELLED_METHODS
+from softkin.uncertainty.promise import promised_methods
 from softkin.uncertainty.regions import REGION_METHODS
 from softkin.uncertainty.stored_outputs import INTERVAL_SUBSETS, stored_outputs
 
@@ -91,7 +92,7 @@ def coverage():
         dataset=dataset,
         standardised_norm=params.robot["standardised_norm"],
         methods=ExtrapolationMethods(
-            methods=methods,
+            methods=promised_methods(methods, outputs.promise),
             intervals=intervals,
             labelled=LABELLED_METHODS,
             confidence_levels=params.confidence_levels,

@@ -85,6 +85,8 @@ def guess_entry(
         why_split = (
             f"order, split: '{running}' is a running number and rows in turn are alike, so in time; please check"
         )
+    elif not when and split_options["method"] == "random" and column_kinds.are_alike(inputs):
+        reasons.append("order: rows in turn are alike, as those of a recording: add a column of its time to the file")
     entry |= when | missing
     entry["split"] = split_options
     if column_kinds.affine_copies(inputs, values):

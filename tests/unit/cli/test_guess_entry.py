@@ -108,3 +108,11 @@ def test_the_guess_is_made_though_the_file_is_not_readable_to_its_end(tmp_path: 
     entry, reasons = guess_entry(tmp_path / "arm.csv", "Arm", "arm.csv")
     assert (entry["commands"], entry["positions"]) == (["u1", "u2"], ["x", "y", "z"])
     assert any("not readable to its end" in reason for reason in reasons)
+
+
+def test_rows_that_follow_each_other_are_a_recording_though_no_column_says_so(tmp_path: Path) -> None:
+    turns = np.linspace(0, 12, SIZE)
+    table = columns("x", "y", "z").assign(u1=np.sin(turns), u2=np.cos(1.7 * turns))
+    table.to_csv(tmp_path / "arm.csv", index=False)
+    _, reasons = guess_entry(tmp_path / "arm.csv", "Arm", "arm.csv")
+    assert any("rows in turn are alike" in reason for reason in reasons)

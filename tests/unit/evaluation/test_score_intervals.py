@@ -14,6 +14,7 @@ from softkin.evaluation.score_intervals import score_intervals
 from softkin.uncertainty.calibrate import calibrate
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from softkin.uncertainty.intervals.spec import MARGINAL, NO_GUARANTEE
+from softkin.uncertainty.promise import promised_methods
 from softkin.uncertainty.regions import REGION_METHODS
 from softkin.uncertainty.stored_outputs import StoredOutputs
 from tests.conftest import four_subsets
@@ -182,3 +183,36 @@ def test_calibration_rows_are_those_that_a_method_is_calibrated_on(tmp_path: Pat
     assert counts == {"cv_plus": [50], "scp_crepes": [30], "cps": [30], "gaussian": [0]}
     has_crps = frame[frame["coordinate"] == "mean"].groupby("interval_method")["crps_mm"].count() > 0
     assert has_crps.to_dict() == {"cv_plus": False, "scp_crepes": False, "cps": True, "gaussian": True}
+
+
+@pytest.mark.parametrize(("n_blocks", "of_90"), [(12, "marginal, by block"), (3, "no guarantee (3 blocks)")])
+def test_what_blocks_promise_stands_beside_the_coverage(table: Path, tmp_path: Path, n_blocks: int, of_90: str) -> None:
+    frame = pd.read_parquet(table)
+    frame["block"] = np.arange(len(frame)) % n_blocks
+    frame.attrs = {}
+    frame.to_parquet(tmp_path / "blocks.parquet")
+    frame.drop(columns=["u1", "u2", "block"]).to_parquet(tmp_path / "predictions.parquet")
+    outputs = StoredOutputs(
+        tmp_path / "blocks.parquet",
+        predictions={RUN: tmp_path / "predictions.parquet"},
+        quantiles={},
+        refits=None,
+        confidence_levels=[0.9],
+    )
+    methods = promised_methods({"scp_crepes": INTERVAL_METHODS["scp_crepes"]}, outputs.promise)
+    intervals = {"scp_crepes": tmp_path / "scp_crepes.parquet"}
+    calibrate(outputs, methods=methods, in_domain={}, intervals=intervals)
+    score_intervals(
+        tmp_path / "blocks.parquet",
+        dataset="arm",
+        methods={"scp_crepes": INTERVAL_METHODS["scp_crepes"]},
+        intervals=intervals,
+        regions={"joint_box": REGION_METHODS["joint_box"]},
+        outputs=outputs,
+        output=tmp_path / "metrics.csv",
+    )
+    metrics = pd.read_csv(tmp_path / "metrics.csv")
+    mean = metrics[metrics["coordinate"] == "mean"].set_index("subset")["guarantee"]
+    assert mean.to_dict() == {"test": of_90, "extrapolation": "no guarantee"}
+    region = metrics[(metrics["interval_method"] == "joint_box") & (metrics["subset"] == "test")]
+    assert region["guarantee"].tolist() == ["joint, by block" if n_blocks == 12 else of_90]

@@ -13,7 +13,10 @@ from softkin.reporting.tables.numbers import number_text, share_text
 from softkin.reporting.tables.paper_layout import PaperTable
 from softkin.reporting.titles import Titles
 from softkin.uncertainty.intervals.spec import MARGINAL
+from softkin.uncertainty.promise import BY_BLOCK
 
+#: Guarantees among whose methods the best is bold.
+GUARANTEED = (MARGINAL, BY_BLOCK)
 HEADER = ("Method", "Around", "Guarantee", "Coverage (%)", "Mean width (mm)", "Winkler score (mm)")
 RUN = ["model", "preset"]
 
@@ -46,9 +49,9 @@ def interval_table(
         chosen = chosen_intervals(choice).loc[dataset]
         deployed = deployed_intervals(choice).loc[dataset]
         shown = _shown(metrics[metrics["dataset"] == dataset], chosen, deployed, list(titles.methods))
-        guaranteed = shown.loc[shown["guarantee"] == MARGINAL, "winkler_mm"]
+        guaranteed = shown.loc[shown["guarantee"].isin(GUARANTEED), "winkler_mm"]
         for row in shown.to_dict("records"):
-            if row["guarantee"] == MARGINAL and row["winkler_mm"] == guaranteed.min():
+            if row["guarantee"] in GUARANTEED and row["winkler_mm"] == guaranteed.min():
                 bold.add((len(rows), len(HEADER) - 1))
             words = [titles.methods[row["interval_method"]]]
             for word, best in (("chosen", chosen), ("deployed", deployed)):
