@@ -143,3 +143,20 @@ def test_a_file_that_was_changed_since_it_was_retrieved_is_refused(tmp_path: Pat
     raw.write_text(raw.read_text() + " ")
     with pytest.raises(ResultError, match="changed since it was retrieved"):
         prepare(raw, dataset="arm", source=entry(), **options)
+
+
+def test_case_29_relabel_puts_markers_in_order_in_every_subset_and_counts_them(tmp_path: Path) -> None:
+    path = HOUSE / "tests" / "cases" / "29_swapped_marker_labels.csv"
+    names = [f"{axis}{place}" for place in (1, 2, 3) for axis in "xyz"]
+    source = {"title": "Arm", "format": "table_file", "file": path.name, "position_unit": "mm"}
+    source |= {"commands": ["u1", "u2"], "positions": names, "split": {"method": "random"}}
+    counts = {}
+    for relabel in (False, True):
+        table, description = tmp_path / f"{relabel}.parquet", tmp_path / f"{relabel}.json"
+        entry = source | {"relabel": relabel}
+        prepare(path, dataset="arm", source=entry, table=table, description=description)
+        counts[relabel] = read_json(description).get("relabelled_rows")
+        heights = np.vstack([read_subset(table, subset).positions[:, [2, 5]] for subset in SUBSETS])
+        assert len({first < second for first, second in heights.tolist()}) == (1 if relabel else 2)
+    assert counts[False] is None
+    assert sum(counts[True].values()) == 60

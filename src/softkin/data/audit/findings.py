@@ -14,7 +14,7 @@ from softkin.core.samples import EXTRAPOLATION, TEST, VALIDATION
 #: From mild to grave. A leak marks the tables of its subset; a warning asks for care; a note touches no score.
 NOTE, WARNING, LEAK = SEVERITIES = ("note", "warning", "leak")
 
-#: What follows for each subset whose commands stand in `train`. The tables hold these sentences.
+#: What follows for each subset whose rows stand in `train`. The tables hold these sentences.
 LEAK_CONSEQUENCES = {
     VALIDATION: "Intervals are calibrated on commands that the model was fitted to: too narrow for new ones.",
     TEST: "The score on these rows is training error: it says how well a model remembers, not how well it predicts.",

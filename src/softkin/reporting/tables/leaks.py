@@ -12,8 +12,7 @@ MARK = "leak"
 
 
 def marked(frame: pd.DataFrame, leaking: Mapping[str, Collection[str]], *, calibrated: bool = False) -> pd.DataFrame:
-    """The table with a column `leak`, true where the commands of the row's subset stand in train (`leaking`: dataset ->
-    subsets).
+    """The table with a column `leak`, true where rows of its subset stand in train (`leaking`: dataset -> subsets).
 
     A table without a column `subset` is one of test rows. A number of `calibrated` intervals leaks where `validation`
     does, too: they were calibrated on rows that the model was fitted to.
