@@ -52,7 +52,7 @@ def points():
 
 def coverage():
     """Coverage and scores of intervals and regions, in-domain and in extrapolation."""
-    outputs = stored_outputs(files, params)
+    outputs, robot = stored_outputs(files, params), load_model(files.calibrated_model)
     score_intervals(
         files.table,
         dataset=dataset,
@@ -62,7 +62,7 @@ def coverage():
         outputs=outputs,
         output=output.intervals,
         joint=joint_rows(
-            load_model(files.calibrated_model),
+            robot,
             {subset: read_subset(files.table, subset) for subset in INTERVAL_SUBSETS},
             outputs.levels,
         ),
@@ -75,6 +75,7 @@ def coverage():
         confidence_levels=params.confidence_levels,
         seed=params.seed,
         output=output.conditional,
+        robot=robot,
     )
     score_left_out(
         files.table,

@@ -59,7 +59,8 @@ def predicted_table(
     robot: CalibratedModel, commands: pd.DataFrame, level: float, *, joint: bool = False
 ) -> pd.DataFrame:
     """Positions, bounds at the level and `outside`, a row for each command; with `joint` the bounds that hold the whole
-    pose. Commands of a robot that remembers are taken as sent one after the other from rest.
+    pose; of a robot that fails the probability of it, and whether it is so high that bounds hold failed poses, too.
+    Commands of a robot that remembers are taken as sent one after the other from rest.
     """
     inputs = State(robot).inputs(commands.to_numpy(dtype=np.float64))
     positions = np.asarray(robot.predict(inputs))
@@ -68,7 +69,11 @@ def predicted_table(
     names, prefix = robot.names.coordinates, "joint_" if joint else ""
     parts = {"": positions, f"{prefix}lower_": bounds[..., 0], f"{prefix}upper_": bounds[..., 1]}
     frame = pd.DataFrame({f"{side}{name}": part[:, i] for i, name in enumerate(names) for side, part in parts.items()})
-    return frame.assign(outside=np.asarray(robot.is_outside(inputs)))
+    frame = frame.assign(outside=np.asarray(robot.is_outside(inputs)))
+    if robot.failures is None:
+        return frame
+    may_fail = robot.failures.may_fail(commands.to_numpy(dtype=np.float64), [level])[0]
+    return frame.assign(failure_probability=robot.failure_probability(inputs), may_fail=may_fail)
 
 
 def check_recording(robot: CalibratedModel, commands: pd.DataFrame, positions: pd.DataFrame, rate: float) -> Checked:

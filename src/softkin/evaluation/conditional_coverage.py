@@ -14,8 +14,10 @@ from softkin.core.bounds import read_bounds
 from softkin.core.files import replacing
 from softkin.core.metrics.interval import covered, widths, worst_slab
 from softkin.core.runs import Run, nearest_level
-from softkin.core.samples import TEST, TRAIN, Array, Samples, informative_coordinates
+from softkin.core.samples import TEST, TRAIN, VALIDATION, Array, Samples, informative_coordinates
 from softkin.data.table import read_subset
+from softkin.evaluation.small_regions import deployed_rows
+from softkin.uncertainty.calibrated_model import CalibratedModel
 
 N_BINS = 5
 #: Memory of MAPIE's HSIC grows with the square of the rows.
@@ -31,12 +33,14 @@ def conditional_coverage(
     confidence_levels: list[float],
     seed: int,
     output: str | Path,
+    robot: CalibratedModel | None = None,
 ) -> None:
     """Write a row per run, method, `by` and group: share of covered coordinates and its standard error.
 
     `by` is marker, command_norm, predicted_position (distance from the mean pose of `train`), width (MAPIE's
     size-stratified coverage), slab (that of lowest coverage, with a fifth of the rows, searched on one half
-    of the rows and measured on the other) or hsic (MAPIE's dependence of coverage on width; 0 is none).
+    of the rows and measured on the other) or hsic (MAPIE's dependence of coverage on width; 0 is none). Of the
+    intervals that the calibrated model gives there are rows by small_region and by failure, see `deployed_rows`.
 
     Parameters:
         table: the tidy table.
@@ -46,6 +50,7 @@ def conditional_coverage(
         confidence_levels: nominal levels; the one nearest to the paper's is evaluated.
         seed: of the halves and directions of the slabs.
         output: the coverages (CSV).
+        robot: the calibrated model; None: no rows on the intervals that it gives.
     """
     level = nearest_level(confidence_levels)
     test, train = read_subset(table, TEST), read_subset(table, TRAIN)
@@ -60,6 +65,10 @@ def conditional_coverage(
             key = {"dataset": dataset, "model": model, "preset": preset, "interval_method": method}
             key |= {"confidence_level": level}
             rows += [key | row for row in _groups(test, train, bounds, moving, seed)]
+    if robot is not None:
+        key = {"dataset": dataset, "model": robot.spec.name, "preset": robot.preset}
+        key |= {"interval_method": robot.method.name, "confidence_level": level}
+        rows += [key | row for row in deployed_rows(robot, read_subset(table, VALIDATION), test, level)]
     with replacing(output) as temporary:
         pd.DataFrame(rows).to_csv(temporary, index=False)
 

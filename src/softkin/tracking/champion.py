@@ -220,8 +220,10 @@ def _log_model(
 
 def _signature(model: CalibratedModel, level: float) -> ModelSignature:
     coordinates = coordinate_columns(model.train.positions.shape[1] // 3)
+    outputs = [f"{part}_{name}" for part in PARTS for name in coordinates]
+    outputs += ["failure_probability"] * (model.failures is not None)
     return ModelSignature(
         inputs=Schema([ColSpec("double", name) for name in command_columns(model.train.commands.shape[1])]),
-        outputs=Schema([ColSpec("double", f"{part}_{name}") for part in PARTS for name in coordinates]),
+        outputs=Schema([ColSpec("double", name) for name in outputs]),
         params=ParamSchema([ParamSpec("confidence_level", "double", level)]),
     )

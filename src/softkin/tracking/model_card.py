@@ -34,6 +34,11 @@ IN_EXTRAPOLATION = (
     "In extrapolation, for commands unlike those of training, nothing is guaranteed, neither of positions nor of "
     "intervals."
 )
+FAILURES = (
+    "Poses fail at some commands: {n_failed} of {n_rows} rows of `train` are gross errors that commands foretell. Each "
+    "prediction has the probability of it (`failure_probability`). Where that is above {miss}, no interval around the "
+    "prediction could hold at {level}, and intervals hold the failed poses of `train`, too."
+)
 #: By whether intervals are made for extrapolation.
 EXTRAPOLATION_NOTES = {
     True: f"{IN_EXTRAPOLATION} Intervals there are widened by the errors of the same model on outer shells of the "
@@ -89,6 +94,10 @@ def model_card(
     guarantee = _guarantee(model, percent)
     lines += ["", "## Guarantee", "", guarantee, *_of_whole_poses(model, level)]
     lines += [EXTRAPOLATION_NOTES[bool(model.shells)], ""]
+    if (failures := model.failures) is not None:
+        miss = share_text(1 - level, 0)
+        text = FAILURES.format(n_failed=failures.n_failed, n_rows=failures.n_rows, level=percent, miss=miss)
+        lines += ["## Failures", "", text, ""]
     findings = description["findings"]
     lines += ["## Data", "", _rows(description), ""]
     told = [(finding["severity"], f"{finding['sentence']} {finding['consequence']}") for finding in findings]

@@ -24,6 +24,7 @@ class ServedModel(PythonModel):
     """Commands u1, u2, ... -> y_pred_m1_x, ..., lower_m1_x, ..., upper_m1_x, ..., joint_lower_m1_x, ...,
     joint_upper_m1_x, ... in mm, a row per command.
 
+    A model that knows failures has a last column failure_probability; where it is high, intervals hold failed poses.
     The parameter `confidence_level` is that of the interval from lower to upper, and of the joint interval, whose
     bounds along the axes hold the whole pose.
     """
@@ -54,9 +55,11 @@ class ServedModel(PythonModel):
         parts = {"y_pred": positions, "lower": intervals[..., 0], "upper": intervals[..., 1]}
         parts |= {"joint_lower": joint[..., 0], "joint_upper": joint[..., 1]}
         names = coordinate_columns(positions.shape[1] // 3)
-        return pd.DataFrame(
+        table = pd.DataFrame(
             np.hstack(list(parts.values())), columns=[f"{part}_{name}" for part in parts for name in names]
         )
+        probability = self.model.failure_probability(commands)
+        return table if probability is None else table.assign(failure_probability=probability)
 
 
 set_model(ServedModel())

@@ -18,6 +18,7 @@ from softkin.data.table import content_hash, read_subset
 from softkin.models.spec import PointModel
 from softkin.uncertainty.calibrated import FittedModel, calibrated
 from softkin.uncertainty.choose import deployed_choice
+from softkin.uncertainty.failures import failure_class
 from softkin.uncertainty.intervals.spec import AUTO, IntervalMethod
 from softkin.uncertainty.promise import calibration_set, promised
 from softkin.uncertainty.stored_outputs import norm_of, shells_of
@@ -72,6 +73,7 @@ def build_calibrated_model(
         **extrapolation,
         about=about,
         promise=promise,
+        failures=failure_class(train),
     )
     with replacing(output) as temporary:
         joblib.dump(robot, temporary, compress=3)

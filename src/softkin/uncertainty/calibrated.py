@@ -14,6 +14,7 @@ from softkin.training.predict import spread_of
 from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.calibration_data import Shell
 from softkin.uncertainty.conformal import error_scale
+from softkin.uncertainty.failures import FailureClass
 from softkin.uncertainty.intervals.spec import IntervalMethod
 from softkin.uncertainty.joint_region import joint_region
 from softkin.uncertainty.promise import Promise
@@ -42,6 +43,7 @@ def calibrated(
     norm: Callable[[Array], Array] | None = None,
     about: Mapping[str, Any] | None = None,
     promise: Promise | None = None,
+    failures: FailureClass | None = None,
 ) -> CalibratedModel:
     """The calibrated model around a fitted model, with its predictions on `train` and `validation` stored.
 
@@ -53,6 +55,7 @@ def calibrated(
         norm: command norm, (n_rows, n_commands) -> (n_rows,), that goes with the shells.
         about: what else is known of the robot, as in `CalibratedModel.about`; None: nothing.
         promise: of the blocks of `validation`, for whole poses; None where rows are exchangeable.
+        failures: what `train` tells of poses that fail; None: nothing.
     """
     train = model.train
     predicted = np.asarray(model.estimator.predict(validation.inputs))
@@ -85,5 +88,6 @@ def calibrated(
         joint,
         shells,
         norm,
+        failures=failures,
         about=about or {},
     )

@@ -19,8 +19,9 @@ from softkin.uncertainty.alarm import Watch
 from softkin.uncertainty.answers import bounds_frame, like
 from softkin.uncertainty.calibration_data import PointCalibration, Shell, SpreadCalibration
 from softkin.uncertainty.conformal import around, conformal_limit, joint_scores, p_values
-from softkin.uncertainty.control_loop import State
+from softkin.uncertainty.control_loop import State, error_of
 from softkin.uncertainty.described import described
+from softkin.uncertainty.failures import FailureClass
 from softkin.uncertainty.file_format import restore, stored_state
 from softkin.uncertainty.intervals.spec import IntervalMethod
 from softkin.uncertainty.joint_intervals import JointAnswers, JointIntervals
@@ -80,6 +81,8 @@ class CalibratedModel:
     norm: Callable[[Array], Array] | None = None
     #: What a few labelled poses of a new session changed.
     recalibration: Recalibration | None = None
+    #: What `train` tells of poses that fail; None: it shows none that commands foretell.
+    failures: FailureClass | None = None
     #: What else is known: `data`, the hash of `train`; `columns`, the robot's own names; `date`, of the file.
     about: Mapping[str, Any] = field(default_factory=dict)
 
@@ -117,15 +120,9 @@ class CalibratedModel:
     def watch(self, rate: float = 0.01, session: int | None = None, seed: int = 0) -> Watch:
         """An alarm fed pose by pose, from rest: `watch.see(command, position)`."""
         rate = calls.level_of(rate, self.dataset, "rate of false alarms")
-        state, names = State(self, session), self.names.coordinates
         moving = self._moving()
-
-        def error(command: calls.Rows, position: calls.Rows) -> Array:
-            measured = calls.position_rows(position, self.names, 1, self.dataset)
-            return np.asarray((measured - self._predicted(state.input_of(command)))[0, moving])
-
-        moves = [name for name, moves in zip(names, moving, strict=True) if moves]
-        return Watch(self._residuals()[:, moving], moves, rate, seed, error)
+        moves = [name for name, moves in zip(self.names.coordinates, moving, strict=True) if moves]
+        return Watch(self._residuals()[:, moving], moves, rate, seed, error_of(State(self, session), moving))
 
     def intervals(
         self, commands: calls.Rows, confidence_levels: float | Sequence[float] | Array, predicted: Array | None = None
@@ -151,10 +148,8 @@ class CalibratedModel:
     def joint_intervals(
         self, commands: calls.Rows, confidence_levels: float | Sequence[float] | Array
     ) -> JointIntervals:
-        """Regions that each hold a whole pose, all moving coordinates at once: `bounds` as of `intervals`, the
-        `matrices` of ellipsoids, and `contains(positions)`. Box or ellipsoids, as chosen on `train`.
-
-        In-domain they are of one size, exactly calibrated; in extrapolation, given shells, they grow as `intervals` do.
+        """Regions that each hold a whole pose, all moving coordinates at once: `bounds` as of `intervals`, `matrices`
+        of ellipsoids, `contains(positions)`. In-domain of one size, exactly calibrated; given shells they grow outside.
         """
         return self._joint.intervals(commands, confidence_levels)
 
@@ -162,6 +157,13 @@ class CalibratedModel:
         """Which commands (n_rows,) lie in extrapolation, where nothing is guaranteed."""
         rows = self._commands(self._checked(commands))
         return like(commands, self._prepared.is_outside(rows), "outside")
+
+    def failure_probability(self, commands: calls.Rows) -> Array | pd.Series | None:
+        """Probability (n_rows,) that the pose fails; None where `train` shows no failures that commands foretell. Where
+        it exceeds 1 - level (and their share of `train`) intervals hold the failed poses of `train`, too.
+        """
+        rows = self._commands(self._checked(commands))
+        return None if self.failures is None else like(commands, self.failures.probability(rows), "failure_probability")
 
     def box(self, confidence_level: float) -> Array:
         """Half-widths (n_coordinates,) in mm of the joint box around a predicted pose that holds all moving
@@ -213,7 +215,8 @@ class CalibratedModel:
             if isinstance(data, SpreadCalibration):
                 data = replace(data, new_spread=spread_of(self.spec, self.estimator, self.train, inputs))
             bounds = widened(self._prepared.in_domain(data, tuple(levels)), predicted, self.estimator, inputs, levels)
-        return self._prepared.everywhere(data, bounds, tuple(levels))
+        bounds = self._prepared.everywhere(data, bounds, tuple(levels))
+        return bounds if self.failures is None else self.failures.widened(bounds, data.new_commands, levels)
 
     def _residuals(self) -> Array:
         """Residuals (n_calibration, n_coordinates) of the calibration set, mm."""

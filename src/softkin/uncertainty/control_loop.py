@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from softkin.core.errors import DataError
 from softkin.core.samples import Array
@@ -95,3 +97,16 @@ class State:
         memory = self.estimator.robot.along(commands, self.memory, self.last)
         self.memory, self.last = memory[-1], commands[-1]
         return np.column_stack([commands, memory, np.full(len(commands), self.session)])
+
+
+def error_of(state: State, moving: NDArray[np.bool_]) -> Callable[[calls.Rows, calls.Rows], Array]:
+    """error(command, position), measured minus predicted position (n_moving,) in mm of the commands sent to `state`, of
+    the moving coordinates.
+    """
+    robot = state.robot
+
+    def error(command: calls.Rows, position: calls.Rows) -> Array:
+        measured = calls.position_rows(position, robot.names, 1, robot.dataset)
+        return np.asarray((measured - robot.predict(state.input_of(command)))[0, moving])
+
+    return error

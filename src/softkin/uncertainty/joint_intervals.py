@@ -31,8 +31,9 @@ class JointIntervals:
     mm. `matrices` (n_levels, n_rows, n_markers, 3, 3) in mm2 are those of ellipsoids, a marker x within where
     (x - centre)' inverse(matrix) (x - centre) <= 1, with zeros for constant coordinates; None of a box. In a session
     never seen regions are boxes. Of one level given as a number there is no axis of levels. To a DataFrame, centre and
-    bounds are DataFrames as of `intervals`. `sizes_mm` (n_levels, n_rows) is the side of a cube of the same volume, in
-    all moving coordinates together.
+    bounds are DataFrames as of `intervals`. Where the pose may fail, the region is the box of its bounds, which hold
+    the failed poses of `train`, too. `sizes_mm` (n_levels, n_rows) is the side of a cube of the same volume, in all
+    moving coordinates together.
     """
 
     kind: str
@@ -46,6 +47,8 @@ class JointIntervals:
     _names: calls.Names
     _where: str
     _sides: Array
+    _may_fail: NDArray[np.bool_]
+    _bounds: Array
 
     def contains(self, positions: calls.Rows) -> NDArray[np.bool_] | pd.Series | pd.DataFrame:
         """Whether each region holds the whole pose (n_levels, n_rows), of measured positions (n_rows, n_coordinates) in
@@ -56,12 +59,16 @@ class JointIntervals:
         """
         calls.check_same_rows(self._asked, positions, self._where)
         centre = np.asarray(self.centre)
-        off = calls.position_rows(positions, self._names, len(centre), self._where) - centre
+        measured = calls.position_rows(positions, self._names, len(centre), self._where)
+        off = measured - centre
         if self.matrices is None:
             sides = self._sides[..., self._moving]
             held = (np.abs(off[:, self._moving]) <= sides).all(axis=-1)
         else:
             held = self._in_ellipsoids(off, self.matrices)
+        low, high = np.moveaxis(self._bounds, -1, 0)
+        within = ((low <= measured) & (measured <= high))[..., self._moving].all(axis=-1)
+        held = np.where(self._may_fail, within, held)
         (levels, is_one), asked = self._levels, self._asked
         if isinstance(asked, (pd.DataFrame, pd.Series)):
             table = pd.DataFrame(held.T, index_of(asked), levels)
@@ -114,12 +121,15 @@ class JointAnswers:
         if zero is not None:
             sides[..., region.moving] = np.hypot(sides[..., region.moving], zero)
         bounds = np.stack([centre - sides, centre + sides], axis=-1)
+        may_fail = np.zeros(bounds.shape[:2], dtype=bool)
+        if robot.failures is not None:
+            own = inputs[:, : robot.train.commands.shape[1]]
+            may_fail, bounds = robot.failures.may_fail(own, levels), robot.failures.widened(bounds, own, levels)
         is_box = region.shape.matrix is None or zero is not None
         matrices = None if is_box else self._matrices(region.shape.matrix, size)
-        if is_box:
-            sizes_mm = geometric_size(2 * sides[..., region.moving])
-        else:
-            sizes_mm = region.shape.unit_size_mm * geometric_size(size)
+        sizes_mm = geometric_size(np.ptp(bounds[..., region.moving, :], axis=-1))
+        if not is_box:
+            sizes_mm = np.where(may_fail, sizes_mm, region.shape.unit_size_mm * geometric_size(size))
         is_table = isinstance(commands, (pd.DataFrame, pd.Series))
         answer: Any = bounds[0] if is_one else bounds
         if is_table:
@@ -136,6 +146,8 @@ class JointAnswers:
             robot.names,
             robot.dataset,
             sides,
+            may_fail,
+            bounds,
         )
 
     def _size(self, inputs: Array, levels: tuple[float, ...]) -> Array:

@@ -10,6 +10,7 @@ from softkin.cli.use_model import check_recording, finite, predicted_table, read
 from softkin.core.errors import DataError
 from tests.conftest import bending_arm
 from tests.unit.uncertainty.small_robot import small_robot
+from tests.unit.uncertainty.test_failures import robot as failing_robot
 
 ROBOT = small_robot(shells=True)
 ROWS = bending_arm(80, seed=3)
@@ -30,6 +31,15 @@ def test_joint_bounds_hold_the_whole_pose_and_are_named_so() -> None:
     assert list(table.columns)[:3] == ["m1_x", "joint_lower_m1_x", "joint_upper_m1_x"]
     np.testing.assert_array_equal(table["joint_upper_m1_z"], ROBOT.joint_intervals(ROWS.commands, 0.8).bounds[:, 2, 1])
     assert (table["joint_upper_m1_z"] >= predicted_table(ROBOT, COMMANDS, 0.8)["upper_m1_z"]).all()
+
+
+def test_a_robot_that_fails_has_the_probability_of_it() -> None:
+    robot, commands = failing_robot(), pd.DataFrame({"left": [0.53, -0.5], "right": [0.1, 0.2]})
+    table = predicted_table(robot, commands, 0.9)
+    assert list(table.columns)[-3:] == ["outside", "failure_probability", "may_fail"]
+    assert table["may_fail"].tolist() == [True, False]
+    np.testing.assert_array_equal(table["failure_probability"], robot.failure_probability(commands.to_numpy()))
+    assert "may_fail" not in predicted_table(ROBOT, commands, 0.9)
 
 
 def test_a_robot_where_it_is_said_to_be_raises_no_alarm_and_one_elsewhere_does() -> None:

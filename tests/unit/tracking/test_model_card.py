@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -7,6 +8,7 @@ import pytest
 from softkin.tracking.model_card import model_card
 from softkin.uncertainty.calibrated_model import CalibratedModel
 from tests.unit.tracking.robots import DESCRIPTION, LEAK, interval_metrics, point_metrics, robot, with_shells
+from tests.unit.uncertainty.test_failures import found
 
 
 def card(model: CalibratedModel | None = None, caution: str | None = None, n_commands: int = 40, **changed: Any) -> str:
@@ -84,3 +86,10 @@ def test_a_method_without_a_guarantee_has_none() -> None:
     assert "Intervals by this method have no guarantee." in text
     assert "An interval at" not in text
     assert text.count("in at least") == 1  # joint intervals keep theirs
+
+
+def test_failures_that_commands_foretell_are_told() -> None:
+    text = card(replace(robot(), failures=found()))
+    assert f"{found().n_failed} of 900 rows of `train` are gross errors that commands foretell" in text
+    assert "Where that is above 10 %" in text
+    assert "## Failures" not in card()

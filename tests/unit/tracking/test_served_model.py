@@ -14,6 +14,7 @@ from softkin.core.files import file_sha256
 from softkin.tracking.served_model import ServedModel
 from tests.conftest import bending_arm
 from tests.unit.tracking.robots import robot
+from tests.unit.uncertainty.test_failures import robot as failing_robot
 
 COMMANDS = bending_arm(12, seed=9).commands
 
@@ -80,3 +81,11 @@ def test_a_higher_level_is_a_wider_interval(served: ServedModel) -> None:
 def test_without_a_level_there_is_no_interval(served: ServedModel) -> None:
     with pytest.raises(KeyError, match="confidence_level"):
         served.predict(None, pd.DataFrame(COMMANDS, columns=["u1", "u2"]))
+
+
+def test_a_robot_that_fails_says_how_probably(served: ServedModel) -> None:
+    assert "failure_probability" not in answer(served, 0.9)
+    served.model = failing_robot()
+    np.testing.assert_array_equal(
+        answer(served, 0.9)["failure_probability"], failing_robot().failure_probability(COMMANDS)
+    )

@@ -81,6 +81,7 @@ WRONG: dict[str, tuple[Call, str]] = {
     "joint of two columns": (lambda r: r.joint_intervals(OWN[["left"]], 0.9), "missing 'right'"),
     "held by others": (lambda r: r.joint_intervals(U, 0.9).contains(X[:1]), r"positions of shape \(4, 3\)"),
     "held by lost markers": (lambda r: r.joint_intervals(U, 0.9).contains(X * np.nan), "row 0, column 'm1_x': nan"),
+    "failure of NaN": (lambda r: r.failure_probability(with_value(np.nan)), "row 2, column 'u2': nan"),
     "box in percent": (lambda r: r.box(95), "fix: write it as 0.95"),
     "loop in percent": (lambda r: r.start(confidence_level=90), "90 is no confidence level"),
     "watch in percent": (lambda r: r.watch(rate=5), "5 is no rate of false alarms"),
