@@ -99,8 +99,4 @@ def test_no_rows_have_no_share() -> None:
     assert share(np.zeros(0))["n_rows"] == 0
     assert np.isnan(share(np.zeros(0))["coverage"])
     region = Region((0,), np.array([0.0]), np.array([1.0]))
-    assert region.holds(Samples(np.array([[0.5], [1.0], [1.1]]), np.zeros((3, 3))).commands).tolist() == [
-        True,
-        True,
-        False,
-    ]
+    assert region.holds(np.array([[0.5], [1.0], [1.1]])).tolist() == [True, True, False]

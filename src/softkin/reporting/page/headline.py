@@ -75,6 +75,10 @@ def robot_cards(
         interval = _interval(best.loc[dataset], scores, titles, reasons.get(dataset, ""))
         if dataset in joint.index:
             interval = replace(interval, facts=[*interval.facts, *_whole_poses(joint.loc[dataset])])
+        if "conditional_coverage" in frames:
+            conditional = frames["conditional_coverage"]
+            found = _where_it_holds_least(conditional[conditional["dataset"] == dataset])
+            interval = replace(interval, facts=[*interval.facts, *found])
         cards.append(RobotCard(dataset, description["title"], errors, interval, marks.of_dataset(dataset)))
     return cards
 
@@ -125,3 +129,16 @@ def _whole_poses(joint: pd.Series) -> Facts:
         ("the same, extrapolation (no guarantee)", assessed_text(joint["extrapolation"], joint["assessable"])),
         ("side of a cube of a joint interval's volume", length_text(joint["size_mm"])),
     ]
+
+
+def _where_it_holds_least(conditional: pd.DataFrame) -> Facts:
+    """Of the deployed intervals on test: the coverage where poses may fail, and in the worst small regions."""
+    facts = []
+    for row in conditional[conditional["by"] == "failure"].itertuples():
+        rows = "rows that may fail" if row.group == "may fail" else "other rows"
+        facts.append((f"coverage of {row.n_rows} {rows}, test", share_text(row.coverage)))
+    for row in conditional[conditional["by"] == "small_region"].itertuples():
+        facts.append(
+            (f"coverage of {row.n_rows} rows at {row.group}, the worst on validation", share_text(row.coverage))
+        )
+    return facts

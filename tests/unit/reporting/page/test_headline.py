@@ -90,3 +90,19 @@ def test_joint_intervals_stand_beside_how_often_single_ones_hold_a_whole_pose() 
     assert facts["whole poses within joint intervals (box), test"] == "90.0 %"
     assert facts["side of a cube of a joint interval's volume"] == "2.00 mm"
     assert "whole poses within all intervals, test" not in dict(cards()["finger"].interval.facts)
+
+
+def test_where_intervals_hold_least_is_told() -> None:
+    rows = [
+        {"dataset": "arm", "by": by, "group": group, "n_rows": n_rows, "coverage": coverage}
+        for by, group, n_rows, coverage in (
+            *(("failure", "may fail", 5, 1.0), ("failure", "others", 390, 0.9)),
+            *(("small_region", "u1 0.1 to 0.2", 21, 0.5), ("marker", "m1", 395, 0.91)),
+        )
+    ]
+    told = cards(conditional_coverage=pd.DataFrame(rows))
+    facts = dict(told["arm"].interval.facts)
+    assert facts["coverage of 5 rows that may fail, test"] == "100.0 %"
+    assert facts["coverage of 390 other rows, test"] == "90.0 %"
+    assert facts["coverage of 21 rows at u1 0.1 to 0.2, the worst on validation"] == "50.0 %"
+    assert told["finger"].interval.facts == cards()["finger"].interval.facts
