@@ -18,7 +18,7 @@ def joint_rows(
 ) -> Iterator[dict[str, Any]]:
     """A row of interval_metrics.csv per level and subset, around the deployed run; `shape` is box or ellipsoids.
 
-    The size is the mean over rows of the side (mm) of a cube of the same volume. Recorded rows are told their session
+    The size is the median over rows of the side (mm) of a cube of the same volume: rows that may fail have huge ones. Recorded rows are told their session
     and memory. `samples` is subset -> rows, of test and extrapolation.
     """
     for subset, rows in samples.items():
@@ -31,6 +31,6 @@ def joint_rows(
                 "interval_method": JOINT_INTERVALS,
                 **coverage_row(subset, level, held[place], len(robot.joint.scores), promise=robot.joint.promise),
                 "infinite_share": float(np.isinf(sizes[place]).mean()),
-                "size_mm": float(sizes[place].mean()),
+                "size_mm": float(np.median(sizes[place])),
                 "shape": regions.kind,
             }

@@ -137,8 +137,5 @@ def _where_it_holds_least(conditional: pd.DataFrame) -> Facts:
     for row in conditional[conditional["by"] == "failure"].itertuples():
         rows = "rows that may fail" if row.group == "may fail" else "other rows"
         facts.append((f"coverage of {row.n_rows} {rows}, test", share_text(row.coverage)))
-    for row in conditional[conditional["by"] == "small_region"].itertuples():
-        facts.append(
-            (f"coverage of {row.n_rows} rows at {row.group}, the worst on validation", share_text(row.coverage))
-        )
-    return facts
+    regions, worst = conditional[conditional["by"] == "small_region"].itertuples(), "the worst on validation"
+    return facts + [(f"coverage of {of.n_rows} rows at {of.group}, {worst}", share_text(of.coverage)) for of in regions]
