@@ -18,8 +18,8 @@ def joint_rows(
 ) -> Iterator[dict[str, Any]]:
     """A row of interval_metrics.csv per level and subset, around the deployed run; `shape` is box or ellipsoids.
 
-    The size is the median over rows of the side (mm) of a cube of the same volume: rows that may fail have huge ones. Recorded rows are told their session
-    and memory. `samples` is subset -> rows, of test and extrapolation.
+    The size is the median over rows of the side (mm) of a cube of the same volume: where rows may fail it is huge.
+    Recorded rows are told their session and memory. `samples` is subset -> rows, of test and extrapolation.
     """
     for subset, rows in samples.items():
         regions = robot.joint_intervals(rows.inputs, confidence_levels)
