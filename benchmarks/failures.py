@@ -1,6 +1,6 @@
 """How often a class of failures is found: on clean stand-ins and arms, with errors at random, and with a thin slab.
 
-    python -m benchmarks.failures [--rows 900] [--seeds 20] [--results results]
+    python -m benchmarks.failures [--rows 900] [--seeds 20] [--robots pneumatic_arm ...] [--results results]
 
 Each robot is simulated with `--rows` rows of `train`, seed by seed: as it is; with 2 % of its rows at poses of other
 rows, anywhere (markers swapped, stuck); and with a slab of 2 % of the commands, by one of them, in which 8 of 10 rows
@@ -32,12 +32,14 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--rows", type=int, default=900)
     parser.add_argument("--seeds", type=int, default=20)
+    without_sessions = [name for name, robot in STANDINS.items() if not robot.sessions]
+    parser.add_argument("--robots", nargs="*", default=without_sessions)
     parser.add_argument("--results", type=Path)
     asked = parser.parse_args()
     columns = f"{'class':>7} {'slab':>7} {'others':>7} {'says':>7} {'failed':>7}"
     print(f"{'robot':<26} {'errors':<10} {columns}")
     kinds: dict[str, Spoilt] = {"none": as_it_is, "anywhere": anywhere, "slab": in_a_slab}
-    for name in [name for name, robot in STANDINS.items() if not robot.sessions]:
+    for name in asked.robots:
         robots = [simulated(name, asked.rows, seed) for seed in range(asked.seeds)]
         for kind, spoil in kinds.items():
             found = [outcome(rows, spoil, asked.rows, seed) for seed, rows in enumerate(robots)]
