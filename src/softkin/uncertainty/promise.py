@@ -52,9 +52,9 @@ class Promise:
 
     def guarantee(self, method: IntervalMethod[Any], level: float) -> str:
         """What an interval by a method that promises `method.guarantee` of rows promises here."""
-        if method.guarantee != MARGINAL or not self.holds(level, method.rank is two_sided_rank):
-            return self._nothing()
-        return BY_BLOCK
+        if method.guarantee != MARGINAL or method.calibrated_on.needs_refits:
+            return NO_GUARANTEE
+        return BY_BLOCK if self.holds(level, method.rank is two_sided_rank) else self._nothing()
 
     def of_region(self, guarantee: str, level: float) -> str:
         """What a joint region of the level promises, which promises `guarantee` where rows are exchangeable."""
@@ -102,7 +102,7 @@ def promised(method: IntervalMethod[Any], promise: Promise | None, level: float 
         return method
     guarantee = promise.guarantee(method, level)
     if method.guarantee != MARGINAL or method.calibrated_on.needs_refits:
-        return replace(method, guarantee=guarantee if method.guarantee == MARGINAL else method.guarantee)
+        return replace(method, guarantee=guarantee)
     asked = partial(_asked, method.intervals, promise, method.rank is two_sided_rank)
     return replace(method, intervals=asked, guarantee=guarantee)
 

@@ -88,6 +88,8 @@ def test_a_promised_method_can_be_stored(tmp_path: object) -> None:
 def test_refits_promise_nothing_of_blocks() -> None:
     method = replace(INTERVAL_METHODS["cv_plus"], guarantee=MARGINAL)
     assert promised(method, Promise(30, 5)).intervals is method.intervals
+    assert promised(method, Promise(30, 5)).guarantee == "no guarantee"
+    assert promised(INTERVAL_METHODS["cv_plus"], Promise(30, 5)).guarantee == "no guarantee"
     assert promised(INTERVAL_METHODS["qr"], Promise(30, 5)) == INTERVAL_METHODS["qr"]
 
 
