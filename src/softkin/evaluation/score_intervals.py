@@ -40,7 +40,7 @@ from softkin.uncertainty.stored_outputs import INTERVAL_SUBSETS, StoredOutputs
 @dataclass(frozen=True, slots=True)
 class _Setting:
     """What the rows of one method around one run have in common at one level; the guarantee is that on this subset,
-    `gross` the mask (n_rows,) of its gross errors.
+    `gross` the mask (n_rows,) of its gross errors, `block` (n_rows,) the held-out block of each row, if there are any.
     """
 
     file: str | Path
@@ -52,6 +52,7 @@ class _Setting:
     guarantee: str
     gross: NDArray[np.bool_]
     n_commands: int
+    block: NDArray[np.int64] | None
 
 
 def score_intervals(
@@ -103,7 +104,7 @@ def score_intervals(
                     guarantee = _guarantee(outputs, method, level) if subset == TEST else NO_GUARANTEE
                     setting = _Setting(
                         intervals[name], true, informative, n_calibration, level, method, guarantee,
-                        gross[subset], n_commands[subset],
+                        gross[subset], n_commands[subset], samples[subset].block,
                     )  # fmt: skip
                     key = {"dataset": dataset, "subset": subset, "model": run.model, "preset": run.preset}
                     key |= {"interval_method": name}
@@ -171,7 +172,7 @@ def _rows(setting: _Setting, bounds: Array, crossings: NDArray[np.bool_], scores
 
     def averages(mask: Any) -> dict[str, Any]:
         return {
-            "coverage": is_covered[:, mask].mean(),
+            "coverage": _share(is_covered[:, mask], setting.block),
             "mean_width_mm": width[:, mask].mean(),
             "winkler_mm": winkler[:, mask].mean(),
             "winkler_without_gross_mm": regular[:, mask].mean(),
@@ -190,7 +191,7 @@ def _rows(setting: _Setting, bounds: Array, crossings: NDArray[np.bool_], scores
     yield {
         **common,
         "coordinate": "joint",
-        "coverage": together.mean(),
+        "coverage": _share(together, setting.block),
         "coverage_low": low,
         "coverage_high": high,
         "size_mm": geometric_size(width[:, setting.informative]).mean(),
@@ -198,6 +199,13 @@ def _rows(setting: _Setting, bounds: Array, crossings: NDArray[np.bool_], scores
         "crossing_share": crossings[:, setting.informative].any(axis=1).mean(),
         "guarantee": NO_GUARANTEE,
     }
+
+
+def _share(is_covered: NDArray[np.bool_], block: NDArray[np.int64] | None) -> float:
+    """Share of what is covered (n_rows, ...); of held-out blocks their mean, whatever rows each has."""
+    if block is None:
+        return float(is_covered.mean())
+    return float(np.mean([is_covered[block == number].mean() for number in np.unique(block)]))
 
 
 def _check_winkler(setting: _Setting, bounds: Array, winkler: Array) -> None:
