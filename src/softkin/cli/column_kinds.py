@@ -80,6 +80,11 @@ def is_running(column: NDArray[Any]) -> bool:
     return bool((np.diff(column) > 0).all() and (column == np.round(column)).all())
 
 
+def running_number(kinds: Mapping[str, str | None], columns: Mapping[str, NDArray[Any]]) -> str | None:
+    """The first column that is a running number by its name (its kind is `ignored`) and its numbers; None without."""
+    return next((name for name in kinds if kinds[name] == "ignored" and is_running(columns[name])), None)
+
+
 def are_alike(values: Array) -> bool:
     """Whether rows (n_rows, n_columns) that follow each other are alike, as those of a trajectory are."""
     values = values[~np.isnan(values).any(axis=1)]

@@ -186,7 +186,7 @@ def _rows(setting: _Setting, bounds: Array, crossings: NDArray[np.bool_], scores
         yield {**common, "coordinate": name, **averages(i), **bands[i], "coverage_p_value_holm": adjusted[i]}
     for name, mask in (("mean", measured_coordinates(setting.true)), ("mean_informative", setting.informative)):
         yield {**common, "coordinate": name, **averages(mask)}
-    together = is_covered[:, setting.informative].all(axis=1)
+    together = np.asarray(is_covered[:, setting.informative].all(axis=1))
     low, high = clopper_pearson(int(together.sum()), n_rows)
     yield {
         **common,

@@ -2,7 +2,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from softkin.cli.column_kinds import affine_copies, are_alike, computed, is_running, numbered_positions, quaternions
+from softkin.cli.column_kinds import (
+    affine_copies,
+    are_alike,
+    computed,
+    is_running,
+    numbered_positions,
+    quaternions,
+    running_number,
+)
 
 
 def test_differences_and_outputs_of_models_are_seen_by_their_names() -> None:
@@ -39,3 +47,9 @@ def test_an_affine_map_of_the_commands_is_no_measurement() -> None:
     positions = commands @ np.array([[1.0, 2.0, 0.0], [0.5, 0.0, 1.0]]) + 3.0
     assert affine_copies(commands, positions)
     assert not affine_copies(commands, positions + 0.1 * commands[:, :1] ** 2)
+
+
+def test_a_running_number_is_one_by_its_name_and_its_numbers() -> None:
+    columns = {"id": np.array([3.0, 1.0, 2.0]), "frame": np.arange(3.0), "u": np.arange(3.0)}
+    assert running_number({"u": "command", "id": "ignored", "frame": "ignored"}, columns) == "frame"
+    assert running_number({"u": "command", "id": "ignored"}, columns) is None

@@ -148,7 +148,7 @@ def test_a_file_that_was_changed_since_it_was_retrieved_is_refused(tmp_path: Pat
 def test_case_29_relabel_puts_markers_in_order_in_every_subset_and_counts_them(tmp_path: Path) -> None:
     path = HOUSE / "tests" / "cases" / "29_swapped_marker_labels.csv"
     names = [f"{axis}{place}" for place in (1, 2, 3) for axis in "xyz"]
-    source = {"title": "Arm", "format": "table_file", "file": path.name, "position_unit": "mm"}
+    source: dict[str, Any] = {"title": "Arm", "format": "table_file", "file": path.name, "position_unit": "mm"}
     source |= {"commands": ["u1", "u2"], "positions": names, "split": {"method": "random"}}
     counts = {}
     for relabel in (False, True):
