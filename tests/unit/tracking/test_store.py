@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import os
 import signal
-import subprocess
-import sys
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 
 import mlflow
@@ -29,10 +28,27 @@ def test_a_lost_store_is_an_error_with_a_fix(tmp_path: Path) -> None:
     assert not (tmp_path / "none.db").exists()
 
 
+def started(action: Callable[[], object]) -> int:
+    """A process that does this and ends; it need not import MLflow, which takes longer than most actions."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)  # the child runs no other thread
+        child = os.fork()
+    if child:
+        return child
+    try:
+        action()
+        os._exit(0)
+    finally:
+        os._exit(1)
+
+
+def ended(child: int) -> int:
+    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+
+
 def test_four_processes_may_create_the_store_at_once(tmp_path: Path) -> None:
-    code = f"from softkin.tracking import create_store; create_store('sqlite:///{tmp_path / 'mlflow.db'}')"
-    processes = [subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.DEVNULL) for _ in range(4)]
-    assert [process.wait() for process in processes] == [0, 0, 0, 0]
+    address = f"sqlite:///{tmp_path / 'mlflow.db'}"
+    assert [ended(child) for child in [started(lambda: create_store(address)) for _ in range(4)]] == [0, 0, 0, 0]
     client = MlflowClient(f"sqlite:///{tmp_path / 'mlflow.db'}")
     assert [e.name for e in client.search_experiments(view_type=ViewType.ALL)] == ["Default"]
 
@@ -72,14 +88,9 @@ def test_the_store_becomes_the_default_of_mlflow(campaign: Campaign, tmp_path: P
 def test_a_store_whose_making_was_killed_is_made_anew(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """MLflow's own way leaves half of its tables under the store's name, which no later run can open."""
     address = f"sqlite:///{tmp_path / 'mlflow.db'}"
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", DeprecationWarning)  # the child runs no other thread
-        child = os.fork()
-    if child == 0:
-        monkeypatch.setattr("mlflow.store.db.utils._upgrade_db", lambda _: os.kill(os.getpid(), signal.SIGKILL))
-        create_store(address)
-        os._exit(0)
-    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == -signal.SIGKILL
+    with monkeypatch.context() as patched:
+        patched.setattr("mlflow.store.db.utils._upgrade_db", lambda _: os.kill(os.getpid(), signal.SIGKILL))
+        assert ended(started(lambda: create_store(address))) == -signal.SIGKILL
     (half,) = tmp_path.glob(".mlflow.db.*.part")
     assert half.stat().st_size > 0
     assert not (tmp_path / "mlflow.db").exists()
