@@ -103,6 +103,11 @@ FAULTS = [
         f"{LOCK}::test_a_second_process_waits_until_the_first_is_gone",
     ),
     Fault(
+        "two people log other results of one dataset to one store or one server, at gaps of 0 to 6 s",
+        "every run is there, the last one of each as current",
+        f"{LOCK}::test_two_writers_at_any_gap_leave_each_others_runs_whole",
+    ),
+    Fault(
         "a process dies with its lock on a server",
         "the lock ends with its lease",
         f"{LOCK}::test_a_lock_on_a_server_ends_with_its_lease",
