@@ -6,6 +6,7 @@ from typing import Any
 
 import pandas as pd
 
+from softkin.evaluation.recorded_names import BLOCKS
 from softkin.reporting.page.recorded import SPLITS
 from softkin.reporting.tables.numbers import number_text, share_text
 from tools.finished_run import FinishedRun, table
@@ -24,5 +25,6 @@ def robots_in_time(run: FinishedRun) -> dict[str, Any]:
             *(share_text(row.coverage), number_text(row.mean_width_mm)),
         ]
         for row in recorded.itertuples()
+        if row.split not in BLOCKS.values()
     ]
     return {"recorded": table(HEADER, rows) if rows else ""}

@@ -14,6 +14,7 @@ import yaml
 from mlflow import MlflowClient
 
 from softkin.core.files import read_json
+from softkin.core.metrics.interval import fewest_commands
 from softkin.core.run_archive import read_run_archive
 from softkin.core.runs import PRESETS, SEARCHED, Run
 from softkin.core.samples import SUBSETS
@@ -160,11 +161,13 @@ def test_every_interval_in_extrapolation_stands_beside_the_oracle(house: House) 
         assert (house.work / "results" / dataset / "figures" / "extrapolation.png").is_file()
     assert set(LABELLED_METHODS) | {"scp_mapie", "scp_distance", "auto"} <= set(table["interval_method"])
     scored = table[table["refused"].isna()]
-    oracle = scored[scored["interval_method"] == "oracle"]
+    oracle = scored[scored["interval_method"] == "oracle_constant"]
     assert (oracle["coverage"] >= oracle["confidence_level"]).all()
     np.testing.assert_allclose(scored["winkler_ratio_to_oracle"], scored["winkler_mm"] / scored["oracle_winkler_mm"])
+    least = {level: fewest_commands(level) for level in table["confidence_level"].unique()}
+    assert (table["assessable"] == (table["n_commands"] >= table["confidence_level"].map(least))).all()
     promised = table[(table["subset"] == "extrapolation") & (table["guarantee"] != "no guarantee")]
-    assert set(promised["interval_method"]) == {"oracle", "few_labels", "few_labels_distance", "adaptive"}
+    assert set(promised["interval_method"]) == {"oracle_constant", "few_labels", "few_labels_distance", "adaptive"}
 
 
 def test_the_profile_is_found_without_being_named(house: House) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 #: What a model is scored on: the published subsets, a session that it never saw, and later rows of a recording.
 PUBLISHED, NEXT_SESSION, LATER = "published", "next_session", "later"
+#: Splits of the rows by session or by block of time, so that a mean over all hides none.
+BLOCKS = {name: f"{name}_in_parts" for name in (PUBLISHED, NEXT_SESSION, LATER)}
 #: Kinds of intervals.
 PLAIN, RECALIBRATED, FIRST_POSES = "split conformal", "recalibrated", "recalibrated on the first poses"
 ADAPTIVE, FIXED_WEIGHTS = "adaptive", "fixed weights"

@@ -34,11 +34,11 @@ from softkin.core.samples import (
     informative_coordinates,
 )
 from softkin.data.table import read_subset
+from softkin.evaluation.intervals_in_time import after, among, blocks
 from softkin.evaluation.recorded_names import (
-    ADAPTIVE,
+    BLOCKS,
     COLUMNS,
     FIRST_POSES,
-    FIXED_WEIGHTS,
     LATER,
     NEXT_SESSION,
     PLAIN,
@@ -49,9 +49,7 @@ from softkin.models.estimators.memory_features import MEMORIES, NONE
 from softkin.models.estimators.weighted_mean import weighted_mean
 from softkin.models.spec import ModelSpec
 from softkin.training.kinematic_model import STATIC, FitSettings, fitted_model
-from softkin.uncertainty.conformal import around, conformal_limits, weighted_limits
-from softkin.uncertainty.labelled.adaptive import trajectory
-from softkin.uncertainty.labelled.fixed_weights import DECAY
+from softkin.uncertainty.conformal import around, conformal_limits
 from softkin.uncertainty.new_session import zero_spread
 from softkin.uncertainty.recalibration import recalibration
 
@@ -133,6 +131,7 @@ def scored(samples: Mapping[str, Samples], run: RecordedRun) -> Iterator[dict[st
     errors = {name: (rows.positions - model.predict(rows.inputs))[:, moving] for name, rows in samples.items()}
     for subset in (TEST, EXTRAPOLATION):
         yield {"split": PUBLISHED, "subset": subset} | plain(Part(errors[VALIDATION], errors[subset], None), level)
+    yield from by_session(samples, errors, level)
     rows = in_time([samples[subset] for subset in (TRAIN, VALIDATION, TEST)])
     assert rows.recording is not None
     first = np.arange(len(rows)) < LATER_SHARE * len(rows)
@@ -196,21 +195,37 @@ def plain(of_part: Part, level: float) -> dict[str, Any]:
 
 
 def over_time(split: str, subset: str, of_part: Part, level: float) -> Iterator[dict[str, Any]]:
-    """Split conformal prediction, and the methods that take rows in turn: adaptive inference, whose rows are measured
-    one by one, and fixed weights, whose calibration rows count the more the later they were recorded.
+    """Split conformal prediction beside the methods that take rows in turn: on all rows, then by blocks of time."""
+    halves = after(np.abs(of_part.known), np.abs(of_part.new), level)
+    everything = [(subset, np.arange(len(of_part.new)))]
+    yield from _in_parts(split, everything, of_part.new, halves, level)
+    parts = [(f"{subset}, {name}", rows) for name, rows in blocks(len(of_part.new))]
+    yield from _in_parts(BLOCKS[split], parts, of_part.new, halves, level)
+
+
+def by_session(samples: Mapping[str, Samples], errors: Mapping[str, Array], level: float) -> Iterator[dict[str, Any]]:
+    """The same on the published rows of test in the order of time, among those of `validation`: session by session, and
+    by blocks of time.
     """
-    key = {"split": split, "subset": subset, "n_recalibration_poses": 0}
-    yield key | plain(of_part, level)
-    halves = trajectory(np.abs(of_part.known), np.abs(of_part.new), level)
-    # A level that has left 0 to 1 asks for everything: the widest calibration error stands for it in means of widths.
-    finite = np.where(np.isfinite(halves), halves, np.abs(of_part.known).max(axis=0))
-    yield key | {"method": ADAPTIVE} | scores(of_part.new, finite, level)
-    weights = DECAY ** np.arange(len(of_part.known), 0, -1.0)
-    yield (
-        key
-        | {"method": FIXED_WEIGHTS}
-        | scores(of_part.new, weighted_limits(np.abs(of_part.known), weights, np.ones(1), [level])[0], level)
-    )
+    known, new = samples[VALIDATION].recording, samples[TEST].recording
+    assert known is not None
+    assert new is not None
+    first, order = np.argsort(known.order, kind="stable"), np.argsort(new.order, kind="stable")
+    in_order, session = errors[TEST][order], new.session[order]
+    halves = among(np.abs(errors[VALIDATION][first]), known.order[first], np.abs(in_order), new.order[order], level)
+    parts = [(f"{TEST}, session {one}", np.flatnonzero(session == one)) for one in np.unique(session)]
+    parts += [(f"{TEST}, {name}", rows) for name, rows in blocks(len(order))]
+    yield from _in_parts(BLOCKS[PUBLISHED], parts, in_order, halves, level)
+
+
+def _in_parts(
+    split: str, parts: list[tuple[str, Indices]], errors: Array, halves: Mapping[str, Array], level: float
+) -> Iterator[dict[str, Any]]:
+    """A row for each part of time and method."""
+    for subset, rows in parts:
+        for method, half in halves.items():
+            key = {"split": split, "subset": subset, "method": method, "n_recalibration_poses": 0}
+            yield key | scores(errors[rows], np.broadcast_to(half, errors.shape)[rows], level)
 
 
 def relabelled(subset: str, of_part: Part, level: float, seed: int) -> Iterator[dict[str, Any]]:

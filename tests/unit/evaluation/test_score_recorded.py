@@ -51,11 +51,29 @@ def test_every_split_has_its_rows(frame: pd.DataFrame) -> None:
     assert rows.to_dict() == {
         ("published", "test"): 1,
         ("published", "extrapolation"): 1,
+        **{("published_in_parts", f"test, session {session}"): 3 for session in (1, 2, 3)},
+        **{("published_in_parts", f"test, block {block} of 4"): 3 for block in (1, 2, 3, 4)},
         ("later", "last 20%"): 3,
+        **{("later_in_parts", f"last 20%, block {block} of 4"): 3 for block in (1, 2, 3, 4)},
         ("next_session", "2 after 1"): 7,
         ("next_session", "3 after 1"): 7,
         ("next_session", "3 after 1+2"): 7,
+        **{
+            ("next_session_in_parts", f"{name}, block {block} of 4"): 3
+            for name in ("2 after 1", "3 after 1", "3 after 1+2")
+            for block in (1, 2, 3, 4)
+        },
     }
+
+
+def test_parts_of_time_make_up_the_whole(frame: pd.DataFrame) -> None:
+    """Blocks are of the same length: the mean of their coverages is that of all rows, whatever the method."""
+    key = ["memory", "method"]
+    whole = frame[(frame["split"] == "next_session") & (frame["subset"] == "2 after 1")].set_index(key)["coverage"]
+    parts = frame[frame["subset"].str.startswith("2 after 1, block")].groupby(key)["coverage"].mean()
+    assert len(parts) == 6
+    whole = whole[~whole.index.get_level_values("method").str.startswith("recalibrated")]
+    np.testing.assert_allclose(parts, whole.reindex(parts.index), atol=0.01)
 
 
 def test_a_few_poses_give_a_new_session_its_coverage_back(frame: pd.DataFrame) -> None:
