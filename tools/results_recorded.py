@@ -27,4 +27,22 @@ def robots_in_time(run: FinishedRun) -> dict[str, Any]:
         for row in recorded.itertuples()
         if row.split not in BLOCKS.values()
     ]
-    return {"recorded": table(HEADER, rows) if rows else ""}
+    return {"recorded": table(HEADER, rows) if rows else "", "in_parts": _in_parts(run, recorded) if rows else ""}
+
+
+def _in_parts(run: FinishedRun, recorded: pd.DataFrame) -> str:
+    """Coverage and mean width (mm) of each method by session and block of time, of what the deployed run is told."""
+    parts = recorded[recorded["split"].isin(BLOCKS.values())]
+    told = parts[parts["memory"] != "none"]
+    parts = parts if told.empty else told
+    key = ["dataset", "split", "memory", "subset"]
+    methods = list(dict.fromkeys(parts["method"]))
+    rows = []
+    for (dataset, split, memory, subset), of_part in parts.groupby(key, sort=False):
+        by_method = of_part.set_index("method")
+        scores = [
+            f"{share_text(row.coverage)} at {number_text(row.mean_width_mm)}"
+            for row in by_method.loc[methods].itertuples()
+        ]
+        rows.append([run.name(dataset), SPLITS[split], subset, memory, *scores])
+    return table(["Robot", "Split", "Rows", "Memory", *methods], rows)

@@ -66,9 +66,22 @@ def test_robots_in_time_have_a_section_of_their_own(results: Path, page: str) ->
         "coverage": 0.9,
     }
     recorded |= {"mean_width_mm": 2.0, "winkler_mm": 3.0, "n_recalibration_poses": 5, "leak": False}
-    pd.DataFrame([recorded]).to_csv(results / "tables" / "recorded.csv", index=False)
+    parts = [
+        recorded
+        | {"split": "next_session_in_parts", "subset": f"2 after 1, block {block} of 4"}
+        | {"method": method, "coverage": 0.7 + block / 10, "memory": memory}
+        for block in (1, 2)
+        for method in ("split conformal", "adaptive")
+        for memory in ("none", "play")
+    ]
+    pd.DataFrame([recorded, *parts]).to_csv(results / "tables" / "recorded.csv", index=False)
     make_results_page(results, results.parent / "results.md")
     page = (results.parent / "results.md").read_text()
+    of_block = (
+        "| FINGER | next session, part by part | 2 after 1, block 1 of 4 | play | 80.0 % at 2.00 | 80.0 % at 2.00 |"
+    )
+    assert of_block in page
+    assert "part by part | 2 after 1, block 1 of 4 | none" not in page
     assert "| FINGER | next session | 2 after 1 | play | recalibrated | 5 | 0.500 / 0.250 | 90.0 % | 2.00 |" in page
 
 
