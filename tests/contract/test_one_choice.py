@@ -25,6 +25,7 @@ from softkin.reporting.page.choices import read_choices
 from softkin.reporting.page.headline import robot_cards
 from softkin.reporting.page.marks import Marks
 from softkin.reporting.page.scores import choice_grid, interval_grid
+from softkin.reporting.page.singles import Singles
 from softkin.reporting.tables.headline import headline
 from softkin.reporting.tables.interval_choice import chosen_intervals, deployed_intervals, interval_choice
 from softkin.reporting.tables.interval_layout import interval_table
@@ -136,7 +137,7 @@ def test_what_is_chosen_and_what_is_deployed_is_said_alike_everywhere(
     if same:
         marked = {TITLES.methods[chosen[2]]: ["chosen", "deployed"]}
     for grid, place in (
-        (choice_grid(table, TITLES, marks), 1),
+        (choice_grid(table, TITLES, marks, Singles({})), 1),
         (interval_grid(metrics[metrics["subset"] == "test"], TITLES, 0.9, marks, read_choices(frames)), 2),
     ):
         kinds = {row[place].text: [mark.kind for mark in row[place].marks] for row in grid.rows if row[place].marks}

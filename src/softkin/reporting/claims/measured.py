@@ -167,7 +167,7 @@ def _bands(at_level: pd.DataFrame, about: Mapping[str, Mapping[str, Any]]) -> di
     constant = {(name, each) for name, of in about.items() for each in of.get("constant_coordinates", [])}
     moves = [key not in constant for key in zip(single["dataset"], single["coordinate"], strict=True)]
     moving = single[moves]
-    promised = moving["guarantee"] != NO_GUARANTEE
+    promised = moving["coverage_p_value_holm"].notna()
     by_chance = (moving["coverage_low"] <= PAPERS_LEVEL) & (moving["coverage_high"] >= PAPERS_LEVEL)
     as_said = (moving["coverage_p_value_holm"] >= CHANCE).where(promised, by_chance).astype(bool)
     counts = as_said.groupby([moving[name] for name in KEY]).agg(["sum", "count"])

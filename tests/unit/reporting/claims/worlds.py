@@ -98,7 +98,7 @@ def interval_metrics(scores: Scores, is_right: bool) -> pd.DataFrame:
         row |= {"confidence_level": 0.9, "coordinate": coordinate, "coverage": coverage, "mean_width_mm": width}
         row |= {"winkler_mm": winkler, "guarantee": "marginal" if is_promised else "no guarantee"}
         row |= {"coverage_low": 0.85 if is_so else 0.1, "coverage_high": 0.95 if is_so else 0.6}
-        rows.append(row | {"coverage_p_value_holm": 0.8 if is_so else 0.001})
+        rows.append(row | {"coverage_p_value_holm": (0.8 if is_so else 0.001) if is_promised else None})
     return pd.DataFrame(rows)
 
 
