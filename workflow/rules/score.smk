@@ -1,5 +1,5 @@
 # in:  the predictions of all models of a dataset, the intervals of all methods, what they were made from, the truth;
-#      the calibrated model, for its joint intervals
+#      the calibrated model, for its joint intervals, where this run makes it
 # out: the dataset's rows of the point metrics, of the errors per marker and in either target space; of the interval
 #      metrics, conditional coverage and rates of alarm; of the intervals in extrapolation, labelled methods among them,
 #      each beside the oracle; and of scores with a single row left out
@@ -10,7 +10,7 @@ rule score:
         other_spaces=OTHER_SPACES,
         intervals=INTERVAL_MANIFEST,
         choice="results/{dataset}/interval_choice.csv",
-        calibrated_model="results/{dataset}/calibrated_model.joblib",
+        calibrated_model=CALIBRATED_MODEL,
     output:
         point="results/{dataset}/point_metrics.csv",
         markers="results/{dataset}/marker_errors.csv",

@@ -52,7 +52,9 @@ def points():
 
 def coverage():
     """Coverage and scores of intervals and regions, in-domain and in extrapolation."""
-    outputs, robot = stored_outputs(files, params), load_model(files.calibrated_model)
+    outputs = stored_outputs(files, params)
+    robot = next(map(load_model, files.calibrated_model), None)
+    subsets = {subset: read_subset(files.table, subset) for subset in INTERVAL_SUBSETS}
     score_intervals(
         files.table,
         dataset=dataset,
@@ -61,11 +63,7 @@ def coverage():
         regions={name: REGION_METHODS[name] for name in params.regions},
         outputs=outputs,
         output=output.intervals,
-        joint=joint_rows(
-            robot,
-            {subset: read_subset(files.table, subset) for subset in INTERVAL_SUBSETS},
-            outputs.levels,
-        ),
+        joint=() if robot is None else joint_rows(robot, subsets, outputs.levels),
     )
     conditional_coverage(
         files.table,
