@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from pathlib import Path
 
 import pandas as pd
 import pytest
 
+from tests.conftest import HOUSE
 from tests.workflow.conftest import House
 
 pytestmark = pytest.mark.timeout(600)
@@ -50,3 +52,12 @@ def test_what_had_other_params_is_made_anew_though_snakemakes_records_are_lost(h
     assert done.returncode == 0, done.stdout + done.stderr
     assert "softkin: prepare finger was done with other params (max_rows); it is done anew." in done.stderr
     assert len(pd.read_parquet(there.work / table)) < len(pd.read_parquet(house.work / table))
+
+
+def test_the_params_of_every_job_can_be_asked_for() -> None:
+    """Of each wildcard that the log of a job has, this run's names are known."""
+    rules = HOUSE / "workflow" / "rules"
+    logs = [path for file in rules.glob("*.smk") for path in re.findall(r'"(results/logs/.+\.log)"', file.read_text())]
+    assert len(logs) > 10
+    named = re.findall(r'^    "(\w+)": config', (rules / "other_params.smk").read_text(), re.MULTILINE)
+    assert set(re.findall(r"{(\w+)}", "".join(logs))) == set(named)

@@ -8,6 +8,7 @@ from softkin.cli.redo import redo_changed
 NAMES = {
     "dataset": config["datasets"],
     "model": config["models"],
+    "ensemble": config["ensembles"],
     "quantile_model": config["quantile_models"],
 }
 
