@@ -21,7 +21,7 @@ def _network_needs_data(measured: Measured) -> Iterator[Case]:
     if curves is None:
         return
     for (preset, dataset), of_run in curves.groupby(["preset", "dataset"], sort=False):
-        wide = of_run.pivot_table(index="model", columns="share", values="rmse_mm", dropna=False)
+        wide = of_run.pivot_table(index="model", columns="share", values="mae_mm", dropna=False)
         is_complete = {SMALL, 1.0} <= set(wide.columns) and NETWORK in wide.index
         if (dataset, TEST) not in measured.places() or not is_complete:
             continue
@@ -37,7 +37,7 @@ NETWORK_NEEDS_DATA = ClaimSpec(
     text="MLP has more parameters than other models, thus requires a large amount of data",
     where="section 4, system identification",
     rule=_network_needs_data,
-    rule_text=f"RMSE on test after {SMALL:.0%} of train over that after all of it: MLP above the median of the other "
+    rule_text=f"MAE on test after {SMALL:.0%} of train over that after all of it: MLP above the median of the other "
     "nonlinear models, on each robot",
     table="learning_curve.csv",
     missing="learning curves of MLP and other models on complete published robots",

@@ -133,7 +133,7 @@ def recorded(coverage: float) -> pd.DataFrame:
 def learning_curve(growth: float) -> pd.DataFrame:
     """Errors of the network grow by that on a tenth of the rows, those of the others by two."""
     return pd.DataFrame(
-        {"dataset": dataset, "preset": preset, "model": model, "share": share, "rmse_mm": 1.0 if share == 1 else of}
+        {"dataset": dataset, "preset": preset, "model": model, "share": share, "mae_mm": 1.0 if share == 1 else of}
         for dataset, preset in itertools.product(DATASETS[:4], ("paper", "tuned"))
         for model, of in (("mlp", growth), ("svr", 2.0), ("xgb", 2.0))
         for share in (0.1, 1.0)
