@@ -10,7 +10,7 @@ KIND ?= all
 BIN := .venv/bin
 # What a person gives: recipes read it from their environment, "$$FILE", as it is. Written into a recipe as $(FILE) a quote
 # or a $(...) in it would be run by the shell, and a $(...) by make.
-GIVEN := PYTHON CORES IN FILE NAME HEADER DELIMITER ANSWER WRITE PORT KEEP NOTIFY AT KIND
+GIVEN := PYTHON CORES IN FILE POSITIONS JOIN SHEET NAME HEADER DELIMITER ANSWER WRITE PORT KEEP NOTIFY AT KIND
 $(foreach name,$(GIVEN),$(eval override $(name) := $$(value $(name))))
 export $(GIVEN)
 export MLFLOW_DISABLE_TELEMETRY := true
@@ -54,9 +54,10 @@ ifneq ($(filter unlock,$(MAKECMDGOALS)),)
 $(filter-out unlock .venv/%,$(MAKECMDGOALS)): | unlock
 endif
 
-# Guess the entry of a robot of your own from FILE, a table. With WRITE=1 config/datasets.yaml gets it; ANSWER=1 or 2.
+# Guess the entry of a robot of your own from FILE, or FILE and POSITIONS. WRITE=1: config/datasets.yaml gets it; ANSWER=1 or 2.
 new-robot: .venv/installed
-	@$(BIN)/python -m softkin.cli.new_robot $${NAME:+--name="$$NAME"} $${HEADER:+--header="$$HEADER"} $${DELIMITER:+--delimiter="$$DELIMITER"} $${ANSWER:+--answer="$$ANSWER"} $${WRITE:+--write} -- "$$FILE"
+	@$(BIN)/python -m softkin.cli.new_robot $${NAME:+--name="$$NAME"} $${HEADER:+--header="$$HEADER"} $${DELIMITER:+--delimiter="$$DELIMITER"} \
+	  $${SHEET:+--sheet="$$SHEET"} $${JOIN:+--join="$$JOIN"} $${ANSWER:+--answer="$$ANSWER"} $${WRITE:+--write} -- "$$FILE" $${POSITIONS:+"$$POSITIONS"}
 
 # All tests but the long ones. Those of the workflow wait for one run of it, beside all others.
 test: .venv/installed-dev

@@ -16,7 +16,9 @@ from softkin.core.errors import ConfigError
 from softkin.core.runs import PRESETS
 from softkin.data.prepare import MM_PER_UNIT
 from softkin.data.readers import READERS
-from softkin.data.readers.table_file import DROP_ROWS
+from softkin.data.readers.complete_rows import MISSING
+from softkin.data.readers.joined_tables import JOINS
+from softkin.data.readers.partner_rows import RESAMPLING
 from softkin.data.split import GROUPS
 from softkin.data.split_in_time import IN_TIME
 from softkin.models.target_spaces import TARGET_SPACES
@@ -36,7 +38,9 @@ LISTED = {
     "when_unreachable": ("simulate", "fail"),
     "position_unit": MM_PER_UNIT,
     "dimensions": (2, 3),
-    "missing": (DROP_ROWS, "refuse"),
+    "missing": MISSING,
+    "by": JOINS,
+    "resample": RESAMPLING,
     "method": ("column", *GROUPS, *IN_TIME),
 }
 #: What is given with `--configfile`, on top of the default configuration.
@@ -82,7 +86,9 @@ def test_values_that_the_schema_lists_are_those_of_the_code() -> None:
 
 def test_formats_that_the_schema_tells_apart_are_registered() -> None:
     entry = SCHEMA["properties"]["sources"]["additionalProperties"]
-    assert {rule["if"]["properties"]["format"]["const"] for rule in entry["allOf"]} <= set(READERS)
+    assert {
+        rule["if"]["properties"]["format"]["const"] for rule in entry["allOf"] if "properties" in rule["if"]
+    } <= set(READERS)
     methods = {rule["if"]["properties"]["method"]["const"] for rule in entry["properties"]["split"]["allOf"]}
     assert methods == set(LISTED["method"])
 

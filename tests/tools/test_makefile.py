@@ -54,6 +54,14 @@ def test_a_file_may_have_any_name(house: Path, value: str) -> None:
         "--",
         "a",
     ]
+    assert heard(house, "new-robot", FILE="a", POSITIONS=value, SHEET=value, JOIN=value) == [
+        *module,
+        f"--sheet={value}",
+        f"--join={value}",
+        "--",
+        "a",
+        value,
+    ]
     assert heard(house, "new-robot", FILE="a", WRITE=value) == [*module, "--write", "--", "a"]
 
 

@@ -10,6 +10,7 @@ from softkin.core.config_files import check_config_files
 from softkin.core.credentials import hide_credentials, with_credentials
 from softkin.core.errors import SoftkinError
 from softkin.core.urls import without_credentials
+from softkin.data import own_files
 from softkin.data.readers import READERS
 from softkin.data.reachability import out_of_reach, warning, with_stand_ins
 from softkin.data.split import has_standardised_norm
@@ -113,9 +114,9 @@ def overrides(wildcards):
 
 
 def own_file(wildcards):
-    """The local file that an entry without `urls` names: retrieved again when it changes."""
+    """The local files that an entry without `urls` names: retrieved again when one changes, or another comes."""
     entry = source(wildcards)
-    return [] if "urls" in entry or "robot" in entry else [entry["file"]]
+    return [] if "urls" in entry or "robot" in entry else own_files.listed(entry)
 
 
 def order_table(wildcards):

@@ -17,6 +17,7 @@ from softkin.core.credentials import with_credentials
 from softkin.core.distributions import installed
 from softkin.core.errors import ConfigError, StoreError
 from softkin.core.urls import without_credentials
+from softkin.data import own_files
 from softkin.data.reachability import out_of_reach
 
 LIBRARIES = (
@@ -93,6 +94,6 @@ def _datasets(folder: Path) -> dict[str, str]:
     gone = {
         name: "its file is not there, out of reach"
         for name in config["datasets"]
-        if "urls" not in config["sources"][name] and not (folder / config["sources"][name]["file"]).exists()
+        if "urls" not in config["sources"][name] and not own_files.are_there(config["sources"][name], folder)
     }
     return states | gone | {name: f"out of reach: {'; '.join(why)}" for name, why in answers.items()}

@@ -56,7 +56,7 @@ def guess_entry(
         left = [*column_kinds.computed(table.names), *column_kinds.quaternions(table.names, looked), *asked_out, *told]
         usable = [name for name in table.names if name not in left]
         positions, dimensions, reasons = _positions(usable, path)
-        kinds = {name: _kind(name) for name in usable if name not in positions}
+        kinds = {name: column_kind(name) for name in usable if name not in positions}
         numeric = {name: kind for name, kind in kinds.items() if looked[name].dtype != object}
         commands, why_commands = _commands(numeric, table.names, path, told)
         reasons += why_commands
@@ -95,7 +95,7 @@ def guess_entry(
         reasons.append("dimensions: positions of two axes only, so a planar robot")
     used = (*commands, *positions, split_options.get("column"), *when.values())
     if left_out := [name for name in table.names if name not in used]:
-        reasons.append(f"left out: {reasons_left_out(left_out, looked, {name: _kind(name) for name in left_out})}")
+        reasons.append(f"left out: {reasons_left_out(left_out, looked, {name: column_kind(name) for name in left_out})}")
     return entry, reasons
 
 
@@ -118,7 +118,7 @@ def _looked(path: Path, options: Mapping[str, Any] | None) -> tuple[Table, dict[
     return table, dict(zip(table.names, table.look(), strict=True))
 
 
-def _kind(name: str) -> str | None:
+def column_kind(name: str) -> str | None:
     """What a column is by the words of its name, ignored without any; None where no word is known."""
     plain = re.sub(r"[^a-z]+", " ", re.split(r"[\[(]", name.lower())[0]).split()
     if not plain:
@@ -128,15 +128,15 @@ def _kind(name: str) -> str | None:
 
 def _positions(names: Sequence[str], path: Path) -> tuple[list[str], int, list[str]]:
     """Columns of positions, marker by marker, how many per marker, and what a person must check of them."""
-    named = {name: axis for name in names if (axis := axis_of(name)) and _kind(name) != "no position"}
+    named = {name: axis for name in names if (axis := axis_of(name)) and column_kind(name) != "no position"}
     for axes in ("xyz", *combinations("xyz", 2)):
         complete = [
             name for name, (rest, _) in named.items() if sorted(a for r, a in named.values() if r == rest) == [*axes]
         ]
         if complete:
-            columns = [name for name in complete if _kind(name) != "command"] or complete
+            columns = [name for name in complete if column_kind(name) != "command"] or complete
             return marker_by_marker(columns), len(axes), []
-    numbered = column_kinds.numbered_positions([name for name in names if _kind(name) is None])
+    numbered = column_kinds.numbered_positions([name for name in names if column_kind(name) is None])
     if numbered:
         return numbered, 3, ["positions: three numbered columns of one name; please check"]
     raise DataError(

@@ -1,6 +1,7 @@
-"""A new robot: inspect its file, guess its entry of config/datasets.yaml, show the guess, and with --write append it.
+"""A new robot: inspect its files, guess its entry of config/datasets.yaml, show the guess, and with --write append it.
 
 python -m softkin.cli.new_robot arm.csv --name arm --write
+python -m softkin.cli.new_robot commands.csv positions.csv --name arm --write
 """
 
 from __future__ import annotations
@@ -16,9 +17,11 @@ from typing import Any
 from softkin.cli.datasets_file import append_entry, entry_text, read_key
 from softkin.cli.guess_entry import asked, guess_entry
 from softkin.cli.guess_questions import Question
+from softkin.cli.robot_files import RobotFiles, robot_files
 from softkin.core.errors import ConfigError, DataError, SoftkinError
 from softkin.data.entries import RESERVED
 from softkin.data.readers import table_file
+from softkin.data.readers.joined_tables import JOINS
 
 DATASETS = Path("config") / "datasets.yaml"
 CONFIG = Path("config") / "config.yaml"
@@ -28,47 +31,30 @@ logger = logging.getLogger("softkin")
 
 
 def show_and_write(
-    file: str,
+    files: Sequence[str],
     name: str | None,
     write: bool,
     options: Mapping[str, Any] | None = None,
     answer: int | None = None,
+    join: str | None = None,
 ) -> None:
-    """Print the entry of the robot in `file`; with `write` append it to config/datasets.yaml.
-    `options` are keys of the entry that say how the file is read. Where the table raises a question, both entries are
-    printed, unless `answer` (1 or 2) says which.
+    """Print the entry of the robot in `files`; with `write` append it to config/datasets.yaml.
+    `options` are keys of the entry that say how files are read, `join` how several are joined. Where the table raises
+    a question, both entries are printed, unless `answer` (1 or 2) says which.
 
     Raises:
         DataError: there is no such file, or it cannot be used, or a question has to be answered first.
         ConfigError: the name is none, or is taken, or the configuration cannot be appended to.
     """
-    path = Path(file)
-    if not path.is_file():
-        raise DataError(
-            f"no such file: '{file}'",
-            where="FILE",
-            fix="name the robot's CSV or Parquet file: make new-robot FILE=...",
-        )
-    name = re.sub(r"[^a-z0-9]+", "_", path.stem.lower()).strip("_") if name is None else name
-    if not NAME.fullmatch(name):
-        raise ConfigError(
-            f"'{name}' is no name: a letter a-z, then a-z, 0-9, _", where="NAME", fix="choose another with --name"
-        )
-    if name in RESERVED:
-        raise ConfigError(
-            f"results/{name} is a folder of softkin's own", where="NAME", fix="choose another name with --name"
-        )
-    is_below = path.resolve().is_relative_to(Path.cwd())
-    listed = path.resolve().relative_to(Path.cwd()).as_posix() if is_below else str(path.resolve())
-    title, question = name.replace("_", " ").capitalize(), asked(path, options)
-    chosen = 0 if question is None or answer is None else answer - 1
-    entry, reasons = guess_entry(path, title, listed, options, chosen)
-    text = entry_text(name, entry, reasons)
-    print(text, end="")
-    if question is not None and answer is None:
-        other, why = guess_entry(path, title, listed, options, 1)
-        _ask(question, entry_text(f"{name}_2", other, why), path, write)
-    subsets = table_file.read(path, dataset=name, source=entry)
+    with robot_files(files, options or {}, join) as found:
+        name = _checked_name(name, files[0])
+        question = asked(found.path, found.options)
+        chosen = 0 if question is None or answer is None else answer - 1
+        text, entry = _text(name, name, found, chosen)
+        print(text, end="")
+        if question is not None and answer is None:
+            _ask(question, _text(name, f"{name}_2", found, 1)[0], found.file, write)
+        subsets = table_file.read(found.path, dataset=name, source=entry)
     print("rows: " + ", ".join(f"{subset} {len(rows)}" for subset, rows in subsets.items()), file=sys.stderr)
     if not write:
         print(
@@ -83,8 +69,15 @@ def show_and_write(
     )
 
 
-def _ask(question: Question, other: str, path: Path, write: bool) -> None:
-    """Print the second entry of the robot in the file at `path`, and the question between the two.
+def _text(name: str, key: str, found: RobotFiles, answer: int) -> tuple[str, dict[str, Any]]:
+    """The entry of the dataset `name` by one answer, as text under a `key`, and itself."""
+    guessed, reasons = guess_entry(found.path, name.replace("_", " ").capitalize(), found.file, found.options, answer)
+    entry = found.entry(guessed)
+    return entry_text(key, entry, [*found.reasons, *reasons]), entry
+
+
+def _ask(question: Question, other: str, file: str, write: bool) -> None:
+    """Print the second entry of the robot in the file, and the question between the two.
 
     Raises:
         DataError: one is to be written, and nobody has said which.
@@ -95,19 +88,35 @@ def _ask(question: Question, other: str, path: Path, write: bool) -> None:
     if write:
         raise DataError(
             f"a question is open: {question.text}",
-            where=path,
+            where=file,
             fix="run it again with --answer 1 or 2 (make new-robot ANSWER=1)",
         )
+
+
+def _checked_name(name: str | None, file: str) -> str:
+    """The name of the dataset: as it was given, or that of the file."""
+    name = re.sub(r"[^a-z0-9]+", "_", Path(file).stem.lower()).strip("_") if name is None else name
+    if not NAME.fullmatch(name):
+        raise ConfigError(
+            f"'{name}' is no name: a letter a-z, then a-z, 0-9, _", where="NAME", fix="choose another with --name"
+        )
+    if name in RESERVED:
+        raise ConfigError(
+            f"results/{name} is a folder of softkin's own", where="NAME", fix="choose another name with --name"
+        )
+    return name
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; its exit status is 0, or 2 when the file or the guess is of no use."""
     parser = argparse.ArgumentParser(prog="new_robot", description=__doc__.splitlines()[0] if __doc__ else None)
-    parser.add_argument("file", metavar="FILE", help="the robot's CSV or Parquet file")
+    parser.add_argument("files", metavar="FILE", nargs="+", help="the robot's file; or parts of its rows, or trials")
     parser.add_argument("--name", help="name of the dataset; the file's name where left out")
     parser.add_argument("--header", help="the line of the names of columns, from 1, or none")
     parser.add_argument("--delimiter", help="the character that splits columns")
     parser.add_argument("--answer", type=int, choices=(1, 2), help="which of two entries, where a question is asked")
+    parser.add_argument("--sheet", help="the sheet of a workbook")
+    parser.add_argument("--join", choices=[*JOINS], help="how rows of several files belong together")
     parser.add_argument("--write", action="store_true", help=f"append the entry to {DATASETS}")
     options = parser.parse_args(arguments)
     handler = logging.StreamHandler(sys.stderr)
@@ -116,9 +125,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     logger.setLevel(logging.INFO)
     logger.propagate = False  # each message is shown once, here, whatever handlers the root logger has
     try:
-        said = {"delimiter": options.delimiter, "header": options.header}
-        how = {key: int(value) if value.isdecimal() else value for key, value in said.items() if value}
-        show_and_write(options.file, options.name, options.write, how, options.answer)
+        said = {"delimiter": options.delimiter, "header": options.header, "sheet": options.sheet}
+        how: dict[str, Any] = {key: value for key, value in said.items() if value}
+        if how.get("header", "").isdecimal():
+            how["header"] = int(how["header"])
+        show_and_write(options.files, options.name, options.write, how, options.answer, options.join)
     except (SoftkinError, OSError) as error:
         print(f"new_robot: {error}", file=sys.stderr)
         return 2

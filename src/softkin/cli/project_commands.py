@@ -34,13 +34,16 @@ def demo(cores: Cores = 2) -> int:
 
 
 def new_robot(
-    file: Annotated[str, typer.Argument(help="the robot's CSV or Parquet file")],
+    files: Annotated[list[str], typer.Argument(help="the robot's file, or files: parts of a row, or trials")],
     name: Annotated[str | None, typer.Option(help="of the dataset; the file's name where left out")] = None,
+    join: Annotated[str | None, typer.Option(help="parts belong together by column, time or row")] = None,
+    sheet: Annotated[str | None, typer.Option(help="the sheet of a workbook")] = None,
     write: Annotated[bool, typer.Option("--write", help="append the entry to config/datasets.yaml")] = False,
 ) -> int:
-    """Guess the entry of a robot of your own from its table."""
-    named = [f"--name={name}"] if name is not None else []
-    return _main("new_robot", *named, *(["--write"] if write else []), "--", file)
+    """Guess the entry of a robot of your own from its files."""
+    said = {"name": name, "join": join, "sheet": sheet}
+    named = [f"--{key}={value}" for key, value in said.items() if value is not None]
+    return _main("new_robot", *named, *(["--write"] if write else []), "--", *files)
 
 
 def ui(folder: In = Path(), port: Annotated[int, typer.Option(min=1, max=65535, help="on this machine")] = 5000) -> int:
@@ -86,7 +89,7 @@ def schedule(
 COMMANDS: dict[Callable[..., int], tuple[str, str]] = {
     run: ("run", "softkin run --cores 4"),
     demo: ("demo", "softkin demo"),
-    new_robot: ("new-robot", "softkin new-robot arm.csv --name arm --write"),
+    new_robot: ("new-robot", "softkin new-robot commands.csv positions.csv --name arm --write"),
     ui: ("ui", "softkin ui --in results/demo --port 5001"),
     campaign: ("campaign", "softkin campaign --cores 2"),
     verify: ("verify", "softkin verify --in results/demo"),

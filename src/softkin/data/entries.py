@@ -11,6 +11,7 @@ from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Any
 
 from softkin.core.addresses import problems_of_url
+from softkin.data import own_files
 from softkin.data.reachability import SUFFIX
 from softkin.data.readers.columns import MAX_COMMANDS
 
@@ -31,9 +32,8 @@ def problems_of_entries(config: Mapping[str, Any]) -> list[str]:
         if count > 1:
             names = ", ".join(name for name in chosen if sources[name]["title"].strip() == title)
             problems.append(f"sources: the datasets {names} have one title, '{title}'; give each its own")
-    files = {name: sources[name]["file"] for name in chosen if "urls" not in sources[name]}
-    reasons = {name: _reason_against_file(file) for name, file in files.items()}
-    return [*problems, *(f"sources.{name}.file: {reason}" for name, reason in reasons.items() if reason)]
+    own = {name: sources[name] for name in chosen if "urls" not in sources[name]}
+    return [*problems, *(problem for name, entry in own.items() for problem in _problems_of_files(name, entry))]
 
 
 def _problems(name: str, entry: Mapping[str, Any], sources: Mapping[str, Any]) -> Iterator[str]:
@@ -103,6 +103,25 @@ def _problems_of_base(key: str, base: Mapping[str, Any]) -> Iterator[str]:
     axis = base.get("axis")
     if axis is not None and not SHORTEST_AXIS < math.hypot(*axis) < 1 / SHORTEST_AXIS:
         yield f"{key}.axis: {list(axis)} is no direction; write one such as [0, 0, 1]"
+
+
+def _problems_of_files(name: str, entry: Mapping[str, Any]) -> Iterator[str]:
+    """What is wrong with the files of one's own that an entry names."""
+    if "files" not in entry:
+        if reason := _reason_against_file(entry["file"]):
+            yield f"sources.{name}.file: {reason}"
+        return
+    for place, item in enumerate(own_files.named(entry)):
+        found = own_files.matching(item)
+        if not found:
+            yield f"sources.{name}.files.{place}: no file is named like '{item}'; correct the pattern or the path"
+        if reason := next((reason for file in found if (reason := _reason_against_file(file))), ""):
+            yield f"sources.{name}.files.{place}: {reason}"
+    columns = entry.get("join", {}).get("column")
+    if isinstance(columns, list) and len(columns) != len(entry["files"]):
+        yield f"sources.{name}.join.column: {len(columns)} columns for {len(entry['files'])} files; name one for each"
+    if "join" in entry and len(entry["files"]) < 2:
+        yield f"sources.{name}.join: one item of `files` cannot be joined; name the other, or leave `join` out"
 
 
 def _reason_against_file(file: str) -> str:

@@ -35,11 +35,12 @@ def recording_of(
 ) -> Recording:
     """The recording of all rows of a dataset, their memory included.
 
-    Whole numbers of order stay as they are, so that gaps stay visible; times become ranks from 1. Where the order
-    starts again in each session, sessions follow each other as in the file.
+    Whole numbers of order stay as they are, so that gaps stay visible; times become ranks from 1, of all rows. Where
+    the order starts again in each session, sessions follow each other as in the file. A row whose command, order or
+    session is missing is a hole: nothing is known of what it left behind, so memory begins at rest after it.
 
     Parameters:
-        commands: (n_rows, n_commands).
+        commands: (n_rows, n_commands), NaN where it is missing.
         order: numbers or dates (n_rows,); None: rows are in the order of the file.
         session: labels (n_rows,); None: one session.
         place: row number -> where the row stands in the file, for messages.
@@ -50,19 +51,62 @@ def recording_of(
     import pandas as pd
 
     n_rows = len(commands)
-    when = np.arange(1, n_rows + 1) if order is None else times("order", order, place)
-    labels = np.zeros(n_rows, dtype=np.int64) if session is None else np.asarray(pd.factorize(session)[0], np.int64)
-    _check_unique(when, labels, place)
-    if len(np.unique(when)) < n_rows:
+    is_placed = ~np.any([np.zeros(n_rows, bool), *(pd.isna(by) for by in (order, session) if by is not None)], axis=0)
+    rows = np.flatnonzero(is_placed)
+
+    def placed(row: int) -> str:
+        return place(int(rows[row]))
+
+    when = rows + 1 if order is None else times("order", order[rows], placed)
+    labels = np.zeros(len(rows), dtype=np.int64)
+    if session is not None:
+        labels = np.asarray(pd.factorize(session[rows])[0], np.int64)
+    _check_unique(when, labels, placed)
+    if len(np.unique(when)) < len(rows) or _starts_again(when, labels):
         in_time = np.lexsort([when, labels])
-        number = np.arange(1, n_rows + 1)
+        number = np.arange(1, len(rows) + 1)
     else:
         in_time = np.argsort(when, kind="stable")
         is_whole = bool((when == np.round(when)).all()) and bool((np.abs(when) < LARGEST_ORDER).all())
-        number = when[in_time].astype(np.int64) if is_whole else np.arange(1, n_rows + 1)
-    numbered = np.empty(n_rows, dtype=np.int64)
-    numbered[in_time] = number
-    return CommandMemory.of(commands).recorded(commands, numbered, _sessions(labels, in_time, place))
+        number = when[in_time].astype(np.int64) if is_whole else np.arange(1, len(rows) + 1)
+    numbered, numbers = np.zeros(n_rows, dtype=np.int64), np.zeros(n_rows, dtype=np.int64)
+    numbered[rows[in_time]] = number
+    numbers[rows] = _sessions(labels, in_time, placed)
+    is_hole = np.asarray(np.isnan(commands).any(axis=1))
+    is_after = is_hole | np.r_[False, ~is_placed[:-1]]
+    robot = CommandMemory.of(commands[~is_hole])
+    memory = _memory(robot, commands, rows[in_time], numbers, is_hole, is_after)
+    return Recording(numbered, numbers, memory, robot)
+
+
+def _memory(
+    robot: CommandMemory,
+    commands: Array,
+    in_time: NDArray[np.intp],
+    sessions: Whole,
+    is_hole: NDArray[np.bool_],
+    is_after: NDArray[np.bool_],
+) -> Array:
+    """Memory (n_rows, n_memory) along the rows `in_time`, which begins anew with each session and after each hole."""
+    memory = np.full((len(commands), len(robot.start())), np.nan)
+    begins = np.r_[True, np.diff(sessions[in_time]) != 0] | is_after[in_time]
+    begins[1:] |= is_hole[in_time[:-1]]
+    for stretch in np.split(in_time, np.flatnonzero(begins)[1:]):
+        known = stretch[~is_hole[stretch]]
+        if len(known):
+            memory[known] = robot.along(commands[known])
+    return memory
+
+
+def _starts_again(when: NDArray[Any], labels: Whole) -> bool:
+    """Whether sessions stand one below the other, each in the order of time, and their times overlap."""
+    starts = np.flatnonzero(np.r_[True, np.diff(labels) != 0])
+    if len(starts) == 1 or len(starts) > len(np.unique(labels)):
+        return False
+    within = np.delete(np.diff(when), starts[1:] - 1)
+    first, last = when[starts], when[np.r_[starts[1:] - 1, len(when) - 1]]
+    by_start = np.argsort(first)
+    return bool((within > 0).all()) and bool((first[by_start][1:] <= last[by_start][:-1]).any())
 
 
 def _check_unique(when: NDArray[Any], labels: Whole, place: Callable[[int], str]) -> None:
@@ -142,7 +186,9 @@ def description(samples: Mapping[str, Samples]) -> dict[str, Any] | None:
     missing = gaps(order)
     if missing:
         logger.warning(
-            "%d poses are missing from the recording's order: what they left behind in the robot is unknown", missing
+            "%d poses are missing from the recording's order: where their commands are missing, too, what they left "
+            "behind in the robot is unknown",
+            missing,
         )
     numbers, counts = np.unique(session, return_counts=True)
     rows = {str(number): int(count) for number, count in zip(numbers, counts, strict=True)}

@@ -7,19 +7,22 @@ from __future__ import annotations
 import logging
 import shutil
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 from urllib.parse import urlsplit
 from urllib.request import url2pathname
 
 from tenacity import RetryError, Retrying, retry_if_exception, stop_after_attempt, wait_exponential
 
-from softkin.core.errors import RetrievalError
+from softkin.core.errors import DataError, RetrievalError
 from softkin.core.files import file_sha256, replacing
 from softkin.core.urls import without_credentials
 from softkin.data.download import CHUNK_BYTES, PATIENT, Patience, Refused, may_recover, opened, reason
+from softkin.data.own_files import parts
+from softkin.data.readers.file_bundle import write_bundle
 
 logger = logging.getLogger("softkin")
 
@@ -156,6 +159,30 @@ def take_own_file(*, dataset: str, file: str, destination: str | Path, sha256: s
             "working directory of the run",
         ) from error
     logger.info("copied %s (%d bytes)", file, Path(destination).stat().st_size)
+
+
+def take_own_files(*, dataset: str, entry: Mapping[str, Any], destination: str | Path) -> None:
+    """Copy the files that an entry names under `files` to a bundle at `destination`.
+
+    Raises:
+        RetrievalError: a file is not there or cannot be read.
+        DataError: a pattern matches no file, or parts have different numbers of trials.
+    """
+    try:
+        found = parts(entry)
+        with replacing(destination) as temporary:
+            write_bundle(found, temporary)
+    except DataError as error:
+        raise error.within(f"dataset '{dataset}'") from error
+    except OSError as error:
+        raise RetrievalError(
+            reason(error, str(error.filename)),
+            where=f"dataset '{dataset}', file {error.filename}",
+            fix="correct `files` of its entry in config/datasets.yaml; a relative path starts in the working directory "
+            "of the run",
+        ) from error
+    names = ", ".join(file for files in found for file in files)
+    logger.info("copied %s (%d bytes)", names, Path(destination).stat().st_size)
 
 
 def _sources(file: str, urls: Sequence[str], mirror: str | None, patience: Patience, ends: float) -> Iterator[Source]:

@@ -23,6 +23,11 @@ def own(changes: Mapping[str, Any], name: str = "arm", without: str = "") -> Cal
     return provoke
 
 
+def several(files: list[Any], **changes: Any) -> Callable[[], None]:
+    """The entry of a robot in several files, of which arm.csv is there."""
+    return own({"files": files, **changes}, without="file")
+
+
 def published(changes: Mapping[str, Any]) -> Callable[[], None]:
     return lambda: check_with({"sources": {"finger": changes}})
 
@@ -65,13 +70,32 @@ CASES = [
     BadInput("a file that is not there", own({"file": "am.csv"}), ("there is no file am.csv",)),
     BadInput("a file that is a folder", own({"file": "."}), ("sources.arm.file: . is a folder",)),
     BadInput("a file with a zero byte", own({"file": "a\0.csv"}), ("sources.arm.file", "control character")),
+    BadInput("file and files", own({"files": ["arm.csv"]}), ("sources.arm", "'file'", "does not go with files")),
+    BadInput("neither file nor files", own({}, without="file"), ("sources.arm: 'file' is a required",)),
+    BadInput("a join of one file", own({"join": {"by": "row"}}), ("sources.arm", "'join'", "goes with files")),
+    BadInput("a join of one item", several(["arm.csv"], join={"by": "row"}), ("sources.arm.join", "cannot be joined")),
+    BadInput("no files", several([]), ("sources.arm.files: []",)),
+    BadInput("files of which one is not there", several(["arm.csv", "tip.csv"]), ("files.1", "no file tip.csv")),
+    BadInput("a pattern that no file matches", several(["trial_*.csv"]), ("files.0", "is named like 'trial_*.csv'")),
+    BadInput("an unknown key of a file", several([{"file": "arm.csv", "sep": ";"}]), ("unknown key 'sep'",)),
+    BadInput("an unknown join", several(["arm.csv"], join={"by": "times"}), ("did you mean 'time'?",)),
+    BadInput(
+        "a join by time without tolerance", several(["arm.csv"], join={"by": "time", "column": "t"}), ("tolerance",)
+    ),
+    BadInput("a join by no column", several(["arm.csv"], join={"by": "column"}), ("'column' is a required",)),
+    BadInput(
+        "three columns for two files",
+        several(["arm.csv", "arm.csv"], join={"by": "column", "column": ["a", "b", "c"]}),
+        ("sources.arm.join.column: 3 columns for 2 files",),
+    ),
+    BadInput("a join by row with a column", several(["arm.csv"], join={"by": "row", "column": "t"}), ("'column'",)),
     BadInput("an unknown unit", own({"position_unit": "inch"}), ("sources.arm.position_unit", "in")),
     BadInput("no commands", own({"commands": []}), ("sources.arm.commands",)),
     BadInput("a pattern that is none", own({"commands": "u[0-9"}), ("sources.arm.commands", "is no pattern")),
     BadInput("a column twice", own({"positions": ["x", "x", "z"]}), ("sources.arm.positions",)),
     BadInput("a column as command and position", own({"commands": ["x"]}), ("'x' stands in `commands` and",)),
     BadInput("two coordinates of three", own({"positions": ["x", "y"]}), ("2 columns, but 3 per marker",)),
-    BadInput("65 commands", own({"commands": [f"u{i}" for i in range(65)]}), ("65 columns, of at most 64",)),
+    BadInput("257 commands", own({"commands": [f"u{i}" for i in range(257)]}), ("257 columns, of at most 256",)),
     BadInput("another number of commands", own({"n_commands": 3}), ("sources.arm.n_commands: 3", "names 2")),
     BadInput("another number of markers", own({"n_markers": 2}), ("sources.arm.n_markers: 2", "names 1")),
     BadInput("four dimensions", own({"dimensions": 4}), ("sources.arm.dimensions: 4 is none of 2, 3",)),
@@ -106,7 +130,7 @@ CASES = [
     BadInput("a file outside the mirror", published({"file": "../../etc/passwd"}), ("leads out of the mirror",)),
     BadInput("an absolute file in a mirror", published({"file": "/etc/passwd"}), ("leads out of the mirror",)),
     BadInput("a key of another format", published({"split": {"method": "random"}}), ("belongs to format table_file",)),
-    BadInput("65 commands of a published robot", published({"n_commands": 65}), ("sources.finger.n_commands: 65",)),
+    BadInput("257 commands of a published robot", published({"n_commands": 257}), ("sources.finger.n_commands: 257",)),
     BadInput("an unknown stand-in", published({"standin": {"robot": "fnger", "seed": 0}}), ("no simulated robot",)),
     BadInput("settings of an unknown model", published({"paper_params": {"mpl": {}}}), ("did you mean 'mlp'?",)),
     BadInput(

@@ -19,7 +19,7 @@ def of(text: str, *, file: str = "arm.csv", name: str | None = None, write: bool
         Path("config").mkdir(exist_ok=True)
         Path("config/config.yaml").write_text("datasets: [finger]\n")
         Path("config/datasets.yaml").write_text("sources:\n  finger: {title: Finger}\n")
-        show_and_write(file, name, write)
+        show_and_write([file], name, write)
 
     return provoke
 
@@ -33,7 +33,7 @@ def without(path: str, text: str) -> Callable[[], None]:
             Path(name).write_text("datasets: [finger]\nsources:\n  finger: {title: Finger}\n")
         Path(path).write_text(text)
         Path("arm.csv").write_text(GOOD)
-        show_and_write("arm.csv", None, True)
+        show_and_write(["arm.csv"], None, True)
 
     return provoke
 

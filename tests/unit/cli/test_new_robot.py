@@ -195,3 +195,15 @@ def test_names_of_files_and_columns_are_text(house: Path, capsys: pytest.Capture
     assert entry["file"] == name
     assert written["sources"]["arm"] == entry
     assert set(written) == {"sources"}
+
+
+def test_commands_and_positions_in_two_files_become_one_entry(house: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    table = columns("u1", "u2", "x", "y", "z").assign(ID=range(200))
+    table[["ID", "u1", "u2"]].to_csv("my commands.csv", index=False)
+    table[["ID", "x", "y", "z"]].to_csv("take.csv", index=False)
+    assert main(["my commands.csv", "take.csv", "--name", "arm", "--write"]) == 0
+    entry = yaml.safe_load(capsys.readouterr().out)["arm"]
+    assert entry["files"] == ["my commands.csv", "take.csv"]
+    assert entry["join"] == {"by": "column", "column": "ID"}
+    assert "file" not in entry
+    assert yaml.safe_load((house / "config" / "datasets.yaml").read_text())["sources"]["arm"] == entry

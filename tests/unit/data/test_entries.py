@@ -52,3 +52,14 @@ def test_all_problems_of_an_entry_are_told() -> None:
         "sources.tables.commands",
         "sources.tables.n_markers",
     ]
+
+
+def test_several_files_are_looked_for_one_by_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name in ("u_1.csv", "u_2.csv", "x.csv"):
+        (tmp_path / name).write_text("u1,x\n")
+    entry = {key: value for key, value in OWN.items() if key != "file"}
+    assert problems(["arm"], arm=entry | {"files": ["u_*.csv", {"file": "x.csv"}]}) == []
+    missing, unmatched = problems(["arm"], arm=entry | {"files": ["u_*.csv", "y.csv", "v_*.csv"]})
+    assert missing.startswith("sources.arm.files.1: there is no file y.csv")
+    assert unmatched.startswith("sources.arm.files.2: no file is named like 'v_*.csv'")

@@ -12,7 +12,7 @@ import pytest
 import yaml
 
 from softkin.core.errors import DataError
-from softkin.core.recording import Recording
+from softkin.core.recording import CommandMemory, Recording
 from softkin.core.samples import SUBSETS, Samples
 from softkin.data.prepare import prepare
 from softkin.data.readers import published_json, table_file
@@ -167,3 +167,34 @@ def test_a_stand_in_is_recorded_in_sessions_that_begin_at_rest() -> None:
     rows = simulate("tendon_finger_recorded", n_rows=60, seed=0)
     assert description(rows) == {"rows_of_session": {"1": 28, "2": 12, "3": 20}, "missing_poses": 0}
     assert simulate("tendon_finger_frictional", n_rows=20, seed=0)["train"].recording is None
+
+
+def test_times_of_sessions_may_overlap_without_being_equal() -> None:
+    """Clocks that begin anew with each trial, and never tick at the same fraction."""
+    times, session = np.array([0.0, 0.1, 0.2, 0.05, 0.15, 0.25]), np.array([1, 1, 1, 2, 2, 2])
+    found = recording_of(COMMANDS, times, session, place)
+    assert found.order.tolist() == [1, 2, 3, 4, 5, 6]
+    assert found.session.tolist() == [1, 1, 1, 2, 2, 2]
+    with pytest.raises(DataError, match="stand between"):
+        recording_of(COMMANDS, times, np.array([1, 2, 1, 2, 1, 2]), place)
+
+
+def test_memory_does_not_reach_over_a_hole() -> None:
+    commands = np.array([[0.0], [1.0], [np.nan], [3.0], [4.0], [5.0]])
+    found = recording_of(commands, None, None, place)
+    robot = CommandMemory.of(np.array([[0.0], [1.0], [3.0], [4.0], [5.0]]))
+    assert found.order.tolist() == [1, 2, 3, 4, 5, 6]
+    assert np.isnan(found.memory[2]).all()
+    np.testing.assert_array_equal(found.memory[:2], robot.along(commands[:2]))
+    np.testing.assert_array_equal(found.memory[3:], robot.along(commands[3:]))
+    backwards = recording_of(commands[::-1], np.arange(6.0, 0.0, -1.0), None, place)
+    np.testing.assert_array_equal(backwards.memory[::-1], found.memory)
+
+
+def test_a_row_of_unknown_time_or_session_is_a_hole_too() -> None:
+    session = np.array([1.0, 1.0, np.nan, 1.0, 2.0, 2.0])
+    found = recording_of(COMMANDS, np.array([1.0, 2.0, 3.0, 4.0, 5.0, 6.0]), session, place)
+    robot = CommandMemory.of(COMMANDS)
+    np.testing.assert_array_equal(found.memory[3], robot.along(COMMANDS[3:4])[0])
+    np.testing.assert_array_equal(found.memory[4:], robot.along(COMMANDS[4:]))
+    assert found.session.tolist() == [1, 1, 0, 1, 2, 2]

@@ -7,9 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from softkin.core.errors import RetrievalError
+from softkin.core.errors import DataError, RetrievalError
 from softkin.data.download import Patience
-from softkin.data.retrieve import retrieve, take_own_file, why_out_of_reach
+from softkin.data.readers.file_bundle import Unpacked
+from softkin.data.retrieve import retrieve, take_own_file, take_own_files, why_out_of_reach
 from tests.unit.data.misbehaving import CONTENT, SHA256, Server
 
 QUICK = Patience(timeout_seconds=0.5, attempts=2, backoff_seconds=0.01)
@@ -168,3 +169,16 @@ def test_no_message_has_a_credential(server: Server, tmp_path: Path, caplog: pyt
     assert server.authorisations[0] is not None
     for secret in ("hunter22", "1a2b3c"):
         assert secret not in str(error.value) + caplog.text
+
+
+def test_several_own_files_are_put_in_place_as_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name in ("u_2.csv", "u_10.csv"):
+        (tmp_path / name).write_text(name)
+    take_own_files(dataset="arm", entry={"files": ["u_*.csv"]}, destination="raw")
+    assert [name for part in Unpacked(Path("raw")).parts for name, _ in part] == ["u_2.csv", "u_10.csv"]
+    with pytest.raises(RetrievalError, match=r"dataset 'arm', file gone.csv") as raised:
+        take_own_files(dataset="arm", entry={"files": ["gone.csv"]}, destination="raw")
+    assert "`files`" in str(raised.value)
+    with pytest.raises(DataError, match=r"dataset 'arm', `files`: no file is named like 'v_\*.csv'"):
+        take_own_files(dataset="arm", entry={"files": ["v_*.csv"]}, destination="raw")

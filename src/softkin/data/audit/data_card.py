@@ -27,13 +27,13 @@ from softkin.data.audit import CHECKS
 from softkin.data.audit.findings import LEAK, Finding, worst_severity
 from softkin.data.audit.page import page
 from softkin.data.marker_order import RELABELLED
-from softkin.data.readers.complete_rows import GAPS
+from softkin.data.readers.complete_rows import COUNTED
 from softkin.data.table import read_subset
 
 logger = logging.getLogger("softkin")
 
 #: Keys of a dataset's description, and of its card, for what was left out or mended.
-LEFT_OUT = ("removed_from_train", GAPS, RELABELLED)
+LEFT_OUT = ("removed_from_train", *COUNTED, RELABELLED)
 #: Names of columns in softkin's tables, in a sentence.
 COLUMN = re.compile(r"\b(?:u\d+|m\d+_[xyz])\b")
 

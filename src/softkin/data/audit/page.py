@@ -8,6 +8,7 @@ from typing import Any
 from softkin.core.escaping import markdown_text
 from softkin.core.samples import SUBSETS, TRAIN
 from softkin.data.audit.findings import counted
+from softkin.data.readers.complete_rows import GAPS, LOST_MARKERS, UNJOINED
 
 OTHERS = [subset for subset in SUBSETS if subset != TRAIN]
 #: The page shows this many row numbers of a finding and this many columns of a long table; the JSON has more, and all.
@@ -32,7 +33,7 @@ def page(card: Mapping[str, Any]) -> str:
         "## The rows",
         _rows(card),
         *_removed(card["removed_from_train"]),
-        *_gaps(card.get("rows_with_gaps")),
+        *_not_read(card),
         *_relabelled(card.get("relabelled_rows")),
         "## Ranges",
         f"Commands in the file's own unit, positions in mm (the file has {card['unit_in_file']}).",
@@ -86,10 +87,17 @@ def _removed(removed: Mapping[str, int] | None) -> list[str]:
     return [f"Dropped from train by `clean`: {counts}. All numbers here are without them."]
 
 
-def _gaps(count: int | None) -> list[str]:
-    if count is None:
-        return []
-    return [f"Left out by `missing: drop_rows`, since a number is missing: {counted(count, 'row')} of the file."]
+def _not_read(card: Mapping[str, Any]) -> list[str]:
+    """What of the file was left out, where the entry asks for that."""
+    said = []
+    if GAPS in card:
+        said.append(f"Left out by `missing`, since a number is missing: {counted(card[GAPS], 'row')} of the file.")
+    for marker in card.get(LOST_MARKERS, ()):
+        columns = markdown_text(", ".join(marker["columns"]))
+        said.append(f"Left out by `missing`, since the marker is lost in {counted(marker['rows'], 'row')}: {columns}.")
+    if UNJOINED in card:
+        said.append(f"Left out by `join`, since they have no partner: {counted(card[UNJOINED], 'row')}.")
+    return said
 
 
 def _relabelled(counts: Mapping[str, int] | None) -> list[str]:

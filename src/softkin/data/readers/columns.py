@@ -9,7 +9,7 @@ from typing import Any
 
 from softkin.core.errors import DataError
 
-MAX_COMMANDS = 64
+MAX_COMMANDS = 256
 _AXIS = re.compile(r"(?<![A-Za-z])[xyz](?![A-Za-z])|(?<![A-Z])[XYZ](?![A-Za-z])")
 _UNIT = re.compile(r"[\[(_ .](mm|cm|m|in)[\])]?$")
 

@@ -18,8 +18,9 @@ from softkin.core.recording import Recording
 from softkin.core.samples import EXTRAPOLATION, MAX_MAGNITUDE, ROWS_FOR_95_PERCENT, SUBSETS, VALIDATION, Array, Samples
 from softkin.data import split
 from softkin.data.blocks import blocks
+from softkin.data.own_files import in_words
 from softkin.data.readers import columns
-from softkin.data.readers.complete_rows import GAPS, CompleteRows
+from softkin.data.readers.complete_rows import REFUSE, whole
 from softkin.data.readers.table_formats import open_table
 from softkin.data.recordings import recording_of
 
@@ -29,51 +30,59 @@ logger = logging.getLogger("softkin")
 WHEN = ("order", "session")
 #: Keys of the entry whose columns are the robot.
 COLUMNS = ("commands", "positions")
-#: What is done with rows in which a number is missing, where they are not refused.
-DROP_ROWS = "drop_rows"
 #: A marker's range this many times that of the next narrower suggests that they are in different units: along an arm
 #: ranges grow gradually.
 SUSPICIOUS_GAP = 100.0
 
 
 def read(
-    path: str | Path, *, dataset: str, source: Mapping[str, Any], counts: dict[str, int] | None = None
+    path: str | Path, *, dataset: str, source: Mapping[str, Any], counts: dict[str, Any] | None = None
 ) -> dict[str, Samples]:
     """Samples per subset, rows in the order of the file, positions in its own unit; planar ones get a third
-    coordinate 0. With `missing: drop_rows` rows without all numbers are left out, and `counts` gets their number as
-    `rows_with_gaps`.
+    coordinate 0. `counts` gets what was left out, by the names of `complete_rows.COUNTED`, as the entry asks for it.
+
+    Memory is computed before rows are left out, and not across a row whose command is missing.
 
     Raises:
         DataError: the file is not what its entry `source` says; names the file, row and column.
     """
-    where = f"dataset '{dataset}', file {source['file']}"
+    where = f"dataset '{dataset}', file {in_words(source)}"
     try:
         table = open_table(path, source)
-        if source.get("missing") == DROP_ROWS:
-            table = CompleteRows(table)
-        commands = columns.choose(table.names, source["commands"], "commands")
-        coordinates = columns.choose(table.names, source["positions"], "positions")
-        named = {
-            key: columns.choose(table.names, [column], key)[0]
-            for key, column in (("split", source["split"].get("column")), *((key, source.get(key)) for key in WHEN))
-            if column is not None
-        }
+        commands, coordinates, named = _chosen(table.names, source)
         chosen = [*commands, *coordinates]
         names = [table.names[place] for place in chosen]
         n_commands, dimensions = len(commands), source.get("dimensions", 3)
-        columns.check(names[:n_commands], names[n_commands:], dimensions, source)
+        missing = source.get("missing", REFUSE)
         others = [place for place in dict.fromkeys(named.values()) if place not in chosen]
-        values, read_others = table.read(chosen, others)
-        if counts is not None and isinstance(table, CompleteRows):
-            counts[GAPS] = table.n_dropped
+        values, read_others = table.read(chosen, others, gaps=missing != REFUSE)
         by_place = dict(zip(others, read_others, strict=True)) | dict(zip(chosen, values.T, strict=True))
         by = {key: by_place[place] for key, place in named.items()}
         if not len(values):
             raise DataError("a header, but no row of numbers", fix="export the file again")
-        _check_magnitudes(names, values, table.place)
+        left = whole(
+            values[:, :n_commands],
+            values[:, n_commands:],
+            names[n_commands:],
+            dimensions=dimensions,
+            missing=missing,
+            unjoined=getattr(table, "unjoined", None),
+            place=table.place,
+        )
+        if counts is not None:
+            counts |= left.counts
         recording = _recording(values[:, :n_commands], by, table.place)
+        names = [*names[:n_commands], *(names[n_commands + place] for place in left.coordinates)]
+        values = values[np.ix_(left.rows, [*range(n_commands), *(n_commands + left.coordinates)])]
+
+        def place(row: int) -> str:
+            return table.place(int(left.rows[row]))
+
+        _check_magnitudes(names, values, place)
+        recording = None if recording is None else recording.take(left.rows)
         samples = Samples(values[:, :n_commands], _spatial(values[:, n_commands:], dimensions), recording)
-        how = (source["split"], samples.commands, by.get("split"), table.place)
+        column = by["split"][left.rows] if "split" in by else None
+        how = (source["split"], samples.commands, column, place)
         subset_of = split.split(*how, recording)
         samples = replace(samples, block=blocks(*how))
         sizes = dict(zip(SUBSETS, np.bincount(subset_of, minlength=len(SUBSETS)).tolist(), strict=True))
@@ -86,11 +95,29 @@ def read(
     ):
         logger.warning("%s", DataError(what, where=where, fix=fix))
     del values
+    return _by_subset(samples, subset_of)
+
+
+def _by_subset(samples: Samples, subset_of: split.Codes) -> dict[str, Samples]:
+    """The rows of each subset that has some."""
     return {
         subset: samples.take(rows)
         for place, subset in enumerate(SUBSETS)
         if len(rows := np.flatnonzero(subset_of == place))
     }
+
+
+def _chosen(names: Sequence[str], source: Mapping[str, Any]) -> tuple[list[int], list[int], dict[str, int]]:
+    """Places of the columns of commands, of coordinates, and of what else the entry names, checked."""
+    commands, coordinates = (columns.choose(names, source[key], key) for key in COLUMNS)
+    named = {
+        key: columns.choose(names, [column], key)[0]
+        for key, column in (("split", source["split"].get("column")), *((key, source.get(key)) for key in WHEN))
+        if column is not None
+    }
+    of_commands, of_coordinates = ([names[place] for place in places] for places in (commands, coordinates))
+    columns.check(of_commands, of_coordinates, source.get("dimensions", 3), source)
+    return commands, coordinates, named
 
 
 def own_columns(path: str | Path, source: Mapping[str, Any]) -> dict[str, Any]:

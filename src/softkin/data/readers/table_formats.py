@@ -14,6 +14,7 @@ from softkin.data.readers import (
     delimited_text,
     excel_workbook,
     feather_file,
+    file_bundle,
     hdf5_file,
     json_records,
     matlab_file,
@@ -21,6 +22,7 @@ from softkin.data.readers import (
     ndi_export,
     numpy_file,
     parquet_columns,
+    several_files,
     vicon_export,
 )
 from softkin.data.readers.memory_table import Table
@@ -49,8 +51,13 @@ def _is_json(start: bytes) -> bool:
     return bool(re.match(rb"(\xef\xbb\xbf)?\s*(\{\s*[\"}]|\[\s*[{\]])", start))
 
 
+def _open_several(path: Path, source: Mapping[str, Any]) -> Table:
+    return several_files.open_table(path, source, open_table)
+
+
 #: The first that a file is of counts; text is what is nothing else.
 TABLE_FORMATS: dict[str, TableFormat] = {
+    "files": TableFormat(file_bundle.is_bundle, _open_several),
     "parquet": TableFormat(begins_with(b"PAR1"), parquet_columns.open_table),
     "feather": TableFormat(begins_with(*feather_file.FIRST_BYTES), feather_file.open_table),
     "numpy": TableFormat(_is_of_numpy, numpy_file.open_table),

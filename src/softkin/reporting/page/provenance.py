@@ -15,6 +15,7 @@ import yaml
 
 from softkin import __version__
 from softkin.core.distributions import installed
+from softkin.data.own_files import in_words
 from softkin.reporting.page.grid import Cell, Column, Grid, number_columns
 from softkin.reporting.page.marks import Marks
 
@@ -97,7 +98,7 @@ def data_grid(
             [
                 *(Cell(dataset, marks.of_dataset(dataset)), Cell(description["title"])),
                 *(Cell(str(description["n_commands"])), Cell(str(description["n_markers"])), *sizes, Cell(constant)),
-                *(Cell(sources[dataset]["file"]), Cell(description["sha256"], verdict="hash")),
+                *(Cell(in_words(sources[dataset])), Cell(description["sha256"], verdict="hash")),
             ]
         )
     sentence = (

@@ -96,7 +96,7 @@ def test_good_choices_pass(commands: list[str], coordinates: list[str], dimensio
     [
         (["u1", "u1"], ["x", "y", "z"], 3, ["'u1' is chosen twice"]),
         (["x"], ["x", "y", "z"], 3, ["'x' is chosen twice"]),
-        ([f"u{place}" for place in range(65)], ["x", "y", "z"], 3, ["65 columns, but at most 64"]),
+        ([f"u{place}" for place in range(257)], ["x", "y", "z"], 3, ["257 columns, but at most 256"]),
         (["u1"], ["x", "y"], 3, ["2 columns (x, y), but 3 per marker", "dimensions: 2"]),
         (["u1"], ["x1", "y1", "x2", "y2", "x3", "y3"], 3, ["name the axes x, y", "write dimensions: 2"]),
         (["u1"], ["x1", "x2", "y1", "y2", "z1", "z2"], 3, ["x1, x2, y1 would be one", "[x1, y1, z1, x2, y2, z2]"]),

@@ -47,7 +47,7 @@ def all_rows(subsets: dict[str, Samples]) -> Any:
 
 
 @pytest.mark.parametrize("suffix", ["csv", "parquet"])
-@pytest.mark.parametrize(("n_commands", "n_markers"), [(1, 1), (2, 3), (64, 2)])
+@pytest.mark.parametrize(("n_commands", "n_markers"), [(1, 1), (2, 3), (256, 2)])
 def test_one_marker_or_many_of_one_command_or_many(
     tmp_path: Path, caplog: pytest.LogCaptureFixture, suffix: str, n_commands: int, n_markers: int
 ) -> None:
