@@ -10,7 +10,7 @@ KIND ?= all
 BIN := .venv/bin
 # What a person gives: recipes read it from their environment, "$$FILE", as it is. Written into a recipe as $(FILE) a quote
 # or a $(...) in it would be run by the shell, and a $(...) by make.
-GIVEN := PYTHON CORES IN FILE POSITIONS JOIN SHEET NAME HEADER DELIMITER ANSWER WRITE PORT KEEP NOTIFY AT KIND
+GIVEN := PYTHON CORES IN FILE POSITIONS JOIN SHEET ROBOT NAME HEADER DELIMITER ANSWER WRITE PORT KEEP NOTIFY AT KIND
 $(foreach name,$(GIVEN),$(eval override $(name) := $$(value $(name))))
 export $(GIVEN)
 export MLFLOW_DISABLE_TELEMETRY := true
@@ -28,7 +28,7 @@ endif
 .PHONY: help run demo campaign refit schedule prune unlock new-robot test test-workflow test-others test-run lint ui store report verify
 .PHONY: gallery numbers results-page single-rows
 .PHONY: snakemake-report campaigns campaign-slurm coverage standins timings benchmark benchmark-large benchmark-pruning benchmark-shells
-.PHONY: benchmark-figures benchmark-commands benchmark-many-robots benchmark-recalibration benchmark-choice benchmark-promises
+.PHONY: benchmark-figures benchmark-two-files benchmark-commands benchmark-many-robots benchmark-recalibration
 .PHONY: environment clean ui-screenshot bad-inputs-page faults-page
 
 # These targets, each with the first sentence of the comment above it.
@@ -37,9 +37,9 @@ help:
 	  /^[a-z][a-z-]*:/ && text { sub(/[.] .*|[.]$$/, "", text); sub(/:.*/, "", $$1); printf "make %-22s%s\n", $$1, text } \
 	  { text = "" }' Makefile
 
-# The whole pipeline: what is not up to date is made, and nothing else.
+# The whole pipeline: what is not up to date is made, and nothing else. ROBOT: one entry of datasets.yaml, and no other.
 run: .venv/installed
-	$(BIN)/snakemake --cores "$$CORES"
+	$(BIN)/snakemake --cores "$$CORES" $${ROBOT:+--config datasets="[$$ROBOT]"}
 
 # A first look at everything, in a folder and a store of its own: one robot, few models, few trials.
 demo: .venv/installed
@@ -155,6 +155,10 @@ benchmark-pruning: .venv/installed
 # Whether robots of 2 to 64 commands and 10,000 rows go through with all models in 15 minutes and 4 GB each.
 benchmark-commands: .venv/installed
 	$(BIN)/python -m benchmarks.commands --cores "$$CORES"
+
+# Whether an export of Motive and a log of commands of 60,000 rows become a calibrated model in 5 minutes.
+benchmark-two-files: .venv/installed
+	$(BIN)/python -m benchmarks.two_files --cores "$$CORES"
 
 # Whether a dry run of 1,000 datasets takes at most 90 s and 1.5 GB, and how both grow with the number of datasets.
 benchmark-many-robots: .venv/installed

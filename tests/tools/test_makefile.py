@@ -68,6 +68,7 @@ def test_a_file_may_have_any_name(house: Path, value: str) -> None:
 @pytest.mark.parametrize("value", VALUES)
 def test_every_other_variable_is_text_too(house: Path, value: str) -> None:
     assert heard(house, "run", CORES=value) == ["--cores", value]
+    assert heard(house, "run", ROBOT=value) == ["--cores", "2", "--config", f"datasets=[{value}]"]
     module = ["-m", "softkin.cli.ui"]
     assert heard(house, "ui", IN=value, PORT=value) == [*module, f"--directory={value}", f"--port={value}"]
     module = ["-m", "softkin.cli.campaign"]

@@ -65,7 +65,10 @@ def show_and_write(
     datasets = read_key(CONFIG.read_text(encoding="utf-8"), CONFIG, "datasets", list)
     append_entry(DATASETS, name, text)
     print(
-        f"Appended to {DATASETS}. In {CONFIG} write:\n\ndatasets: [{', '.join([*datasets, name])}]\n", file=sys.stderr
+        f"Appended to {DATASETS}. It alone is run by:\n\nmake run ROBOT={name}\n\n"
+        f"with the others, where {CONFIG} has:\n\n"
+        f"datasets: [{', '.join([*datasets, name])}]\n",
+        file=sys.stderr,
     )
 
 

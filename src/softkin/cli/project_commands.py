@@ -22,9 +22,13 @@ In = Annotated[Path, typer.Option("--in", help="folder of the run")]
 Notify = Annotated[str | None, typer.Option(help="command that gets the verdict on its standard input")]
 
 
-def run(cores: Cores = 2) -> int:
+def run(
+    cores: Cores = 2,
+    robot: Annotated[str | None, typer.Option(help="one entry of config/datasets.yaml, and no other")] = None,
+) -> int:
     """The whole pipeline: what is not up to date is made, and nothing else."""
-    return _snakemake("--cores", str(cores))
+    only = ["--config", f"datasets=[{robot}]"] if robot is not None else []
+    return _snakemake("--cores", str(cores), *only)
 
 
 def demo(cores: Cores = 2) -> int:

@@ -26,6 +26,9 @@ SAME_SHAPE = 0.9
 #: A header stands below at most so many rows of other things.
 MOST_ABOVE = 30
 _COMMENTS = ("#", "%")
+#: A whole number, and one that nobody writes: it is what stands before or behind a decimal mark.
+_WHOLE = re.compile(r"[+-]?\d+")
+_NO_WHOLE = re.compile(r"-0|[+-]?0\d+")
 #: What a cell of a row of units holds, perhaps in brackets.
 _UNIT = re.compile(
     r"[\[(]?(|-|1|%|[munk]?m|cm|in|inch|px|pixels?|[mk]?bar|[kM]?Pa|psi|[mk]?N|N?m?Nm|[mk]?V|m?A|[mun]?s|sec|[mk]?Hz|deg"
@@ -86,6 +89,7 @@ def layout_of(
     elif isinstance(header, int):
         layout = _below(rows, 0, TextLayout(encoding, delimiter, above, ()))
     else:
+        _check_marks([row for _, row in rows], delimiter, above)
         layout = TextLayout(encoding, delimiter, above, _numbered(_shape(rows)[1]), 0)
     if is_whole and len(list(rows_of(iter(lines[layout.lines_above :]), delimiter))) <= layout.header_rows:
         raise DataError("a header, but no row of numbers", fix="export the file again")
@@ -124,20 +128,37 @@ def _first_row(lines: Sequence[str]) -> tuple[int, str | None]:
     return above, noted
 
 
+def _check_marks(rows: Sequence[Sequence[str]], delimiter: str, above: int) -> None:
+    """Rows without header whose columns and decimals are both marked by commas: nothing else tells them apart."""
+    cells = [cell.strip() for row in rows for cell in row]
+    if delimiter == "," and all(map(_WHOLE.fullmatch, cells)) and any(map(_NO_WHOLE.fullmatch, cells)):
+        raise DataError(
+            "commas split the columns and are decimal marks, too: there are parts of numbers such as "
+            f"{next(cell for cell in cells if _NO_WHOLE.fullmatch(cell))}",
+            where=f"line {above + 1}",
+            fix="save the file with columns split by semicolons, or with decimal points",
+        )
+
+
 def _best(sample: list[str]) -> str:
     """The delimiter that splits the first rows best; blanks where no other does."""
     fits = {delimiter: _fit(sample, delimiter) for delimiter in DELIMITERS}
     blanks = fits.pop(BLANKS)
     best = max(fits, key=lambda delimiter: fits[delimiter])
-    return BLANKS if blanks > fits[best] and not any(fits[best][:2]) and any(blanks[:2]) else best
+    splits_better = not any(fits[best][:2]) or (blanks[2] > fits[best][2] and not fits[best][1])
+    return BLANKS if blanks > fits[best] and splits_better and any(blanks[:2]) else best
 
 
-def _fit(sample: list[str], delimiter: str) -> tuple[bool, bool, int]:
-    """How well a delimiter splits the first rows: into equally many cells at all, below a header, and into how many."""
+def _fit(sample: list[str], delimiter: str) -> tuple[bool, bool, float, int]:
+    """How well a delimiter splits the first rows: into equally many cells at all, below a header, into which share of
+    numbers, and into how many.
+    """
     rows = list(rows_of(iter(sample), delimiter))
     first, n_cells = _shape(rows)
     counts = {len(row) for _, row in rows}
-    return len(counts) == 1 and n_cells > 1, _is_header(rows, first), n_cells
+    last = rows[-1][1] if rows else []
+    share = sum(map(is_number, last)) / len(last) if len(last) > 1 else 0.0
+    return len(counts) == 1 and n_cells > 1, _is_header(rows, first), share, n_cells
 
 
 def _shape(rows: Sequence[tuple[int, list[str]]]) -> tuple[int, int]:

@@ -83,3 +83,16 @@ def test_a_preamble_that_is_filled_up_with_empty_cells_is_no_header(text: str) -
 @pytest.mark.parametrize("text", ["u1,,y\n1,2,3\n4,5,6\n", "u1,,y\nbar,mm,mm\n1,2,3\n4,5,6\n"])
 def test_a_header_with_an_empty_name_stays_one(text: str) -> None:
     assert layout_of(text.encode(), True).names == ("u1", "", "y")
+
+
+@pytest.mark.parametrize("delimiter", ["\t", ";", "|", " "])
+def test_decimal_commas_split_no_columns_also_without_a_header(delimiter: str) -> None:
+    text = "\n".join(delimiter.join(["0,5", "-0,25", "12,125"]) for _ in range(5)) + "\n"
+    assert layout(text, header="none")[:2] == (("c1", "c2", "c3"), delimiter)
+
+
+@pytest.mark.parametrize("text", ["-0,25,1,5\n0,75,2,5\n", "1,05,2,5\n1,75,2,5\n"])
+def test_commas_that_are_delimiter_and_decimal_mark_are_refused(text: str) -> None:
+    with pytest.raises(DataError, match="decimal marks, too"):
+        layout_of(text.encode(), True, header="none")
+    assert layout_of(b"1,2,3\n4,5,0\n", True, header="none").names == ("c1", "c2", "c3")
