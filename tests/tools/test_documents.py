@@ -19,6 +19,7 @@ from softkin.data.retrieve import retrieve
 from softkin.models import MODELS
 from softkin.tracking.store import client_of
 from tests.conftest import HOUSE
+from tests.workbooks import write_workbook
 
 README = HOUSE / "README.md"
 DOCUMENTS = [README, HOUSE / "CONTRIBUTING.md", HOUSE / "CHANGELOG.md", HOUSE / "config" / "README.md"]
@@ -74,6 +75,11 @@ def table_of(content: bytes) -> Callable[[Path], None]:
     return read
 
 
+def workbook_of_two_sheets(folder: Path) -> None:
+    sheets = {"a": [["u1"], [1]], "b": [["x"], [1]]}
+    table_of(write_workbook(folder / "arm.xlsx", sheets).read_bytes())(folder)
+
+
 def lost_store(_: Path) -> None:
     client_of("sqlite:///mlflow.db")
 
@@ -97,7 +103,7 @@ ERRORS = [
     None,
     unreachable,
     misspelt,
-    table_of(b"PK\x03\x04"),
+    workbook_of_two_sheets,
     table_of(HEADER + b"1,2,3,4\nn/a,2,3,4\n"),
     table_of(HEADER + b"\n".join(ROWS)),
     second_run,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ import pandas as pd
 from softkin.core.samples import command_columns, coordinate_columns
 from tests.conftest import bending_arm
 from tests.contract.bad_inputs.case import BadInput, prepared
+from tests.workbooks import write_workbook
 
 ENTRY: dict[str, Any] = {"format": "table_file", "position_unit": "mm", "split": {"method": "random"}}
 ENTRY |= {"commands": command_columns(2), "positions": coordinate_columns(1)}
@@ -32,6 +34,11 @@ GOOD = csv(frame())
 
 def text(content: str | bytes, **entry: Any) -> Callable[[], None]:
     return prepared(content, {**ENTRY, **entry})
+
+
+def workbook(**sheets: Any) -> Callable[[], None]:
+    """A workbook of these sheets."""
+    return lambda: text(write_workbook(Path("arm.xlsx"), sheets).read_bytes())()
 
 
 def cell(value: str) -> Callable[[], None]:
@@ -86,6 +93,8 @@ CASES = [
     BadInput("an HDF5 file", text(b"\x89HDF" + b"\0" * 50), ("not readable as HDF5",)),
     BadInput("a Feather file cut off", text(b"ARROW1" + b"\0" * 50), ("not readable as Feather",)),
     BadInput("a C3D file cut off", text(b"\x02\x50" + b"\0" * 50), ("C3D",)),
+    BadInput("a workbook of two sheets", workbook(a=[["u1"], [1]], b=[["u1"]]), ("2 sheets hold rows", "`sheet`")),
+    BadInput("a workbook without rows", workbook(a=[]), ("no sheet holds rows",)),
     BadInput("an export of Vicon without trajectories", text(b"Devices\n1000\n"), ("without trajectories",)),
     BadInput("an export of NDI cut off", text(b"Number of frames: 9\nFrame,x\n1,2\n"), ("first line says 9",)),
     BadInput("a MATLAB file cut off", text(b"MATLAB 5.0 MAT-file" + b"\0" * 50), ("not readable as MATLAB",)),

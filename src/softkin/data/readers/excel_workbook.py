@@ -47,7 +47,9 @@ def open_table(path: Path, source: Mapping[str, Any]) -> Table:
 
 def _chosen(filled: Mapping[str, Any], wanted: str | None) -> str:
     """The name of the sheet, of those that hold something."""
-    listed = ", ".join(filled) or "none"
+    if not filled:
+        raise DataError("no sheet holds rows", fix="export it again, with a header and rows of numbers")
+    listed = ", ".join(filled)
     if wanted is not None and wanted not in filled:
         raise DataError(f"no sheet '{wanted}' that holds rows; those are: {listed}", where="`sheet`", fix="name one")
     if wanted is None and len(filled) != 1:
