@@ -10,6 +10,8 @@ from typing import Any
 from softkin.core.errors import DataError
 
 MAX_COMMANDS = 256
+#: From more on it is said what they cost.
+MANY_COMMANDS = 64
 _AXIS = re.compile(r"(?<![A-Za-z])[xyz](?![A-Za-z])|(?<![A-Z])[XYZ](?![A-Za-z])")
 _UNIT = re.compile(r"[\[(_ .](mm|cm|m|in)[\])]?$")
 

@@ -186,6 +186,12 @@ def _remarks_on_columns(
         twin = first_names.setdefault(hash(column.tobytes()), name)
         if twin != name:
             yield f"columns '{twin}' and '{name}' hold the same numbers", "leave one out, or export the file again"
+    if n_commands > columns.MANY_COMMANDS:
+        yield (
+            f"{n_commands} commands: a fit of trees takes {n_commands / columns.MANY_COMMANDS:.1f} times as long as of "
+            f"{columns.MANY_COMMANDS}, a recording has six more inputs for each, and polynomials keep squares alone",
+            "leave out of `commands` what says nothing new, or boosted trees out of `models` (docs/scaling.md)",
+        )
     units = {unit for name in names[n_commands:] if (unit := columns.unit_of(name))}
     if units - {position_unit}:
         yield (

@@ -47,7 +47,7 @@ def all_rows(subsets: dict[str, Samples]) -> Any:
 
 
 @pytest.mark.parametrize("suffix", ["csv", "parquet"])
-@pytest.mark.parametrize(("n_commands", "n_markers"), [(1, 1), (2, 3), (256, 2)])
+@pytest.mark.parametrize(("n_commands", "n_markers"), [(1, 1), (2, 3), (64, 2)])
 def test_one_marker_or_many_of_one_command_or_many(
     tmp_path: Path, caplog: pytest.LogCaptureFixture, suffix: str, n_commands: int, n_markers: int
 ) -> None:
@@ -201,3 +201,11 @@ def test_the_example_is_what_its_script_makes() -> None:
     entry = {"file": str(EXAMPLE), "position_unit": "mm", "commands": "p[0-9]_bar", "positions": ".*_[xyz]"}
     subsets = read(EXAMPLE, dataset="arm", source=entry | {"split": {"method": "random"}})
     assert [len(rows) for rows in subsets.values()] == [336, 42, 42, 180]
+
+
+def test_what_many_commands_cost_is_said(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    subsets = parse(tmp_path, frame(n_commands=256))
+    assert subsets["train"].commands.shape[1] == 256
+    (said,) = [record.getMessage() for record in caplog.records if record.levelno > logging.INFO]
+    assert "256 commands: a fit of trees takes 4.0 times as long" in said
+    assert "docs/scaling.md" in said
