@@ -28,7 +28,7 @@ endif
 .PHONY: help run demo campaign refit schedule prune unlock new-robot test test-workflow test-others test-run lint ui store report verify
 .PHONY: gallery numbers results-page single-rows
 .PHONY: snakemake-report campaigns campaign-slurm coverage standins timings benchmark benchmark-large benchmark-pruning benchmark-shells
-.PHONY: benchmark-figures benchmark-two-files benchmark-commands benchmark-many-robots benchmark-recalibration
+.PHONY: benchmark-figures benchmark-two-files benchmark-commands benchmark-many-robots benchmark-recalibration benchmark-choice benchmark-promises
 .PHONY: environment clean ui-screenshot bad-inputs-page faults-page
 
 # These targets, each with the first sentence of the comment above it.
