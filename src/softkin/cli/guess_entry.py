@@ -56,7 +56,7 @@ def guess_entry(
         left = [*column_kinds.computed(table.names), *column_kinds.quaternions(table.names, looked), *asked_out, *told]
         usable = [name for name in table.names if name not in left]
         positions, dimensions, reasons = _positions(usable, path)
-        kinds = {name: column_kind(name) for name in usable if name not in positions}
+        kinds = {name: kind_of(name) for name in usable if name not in positions}
         numeric = {name: kind for name, kind in kinds.items() if looked[name].dtype != object}
         commands, why_commands = _commands(numeric, table.names, path, told)
         reasons += why_commands
@@ -79,12 +79,14 @@ def guess_entry(
         "split": split_options,
     }
     when, why_when = _when(table, kinds)
-    if not when and split_options["method"] == "random" and column_kinds.are_alike(inputs):
-        if running := column_kinds.running_number(kinds, looked):
-            when, split_options = {"order": running}, {"method": "later"}
-            why_split = f"order, split: '{running}' is a running number and rows in turn are alike; please check"
-        else:
-            reasons.append("order: rows in turn are alike, as of a recording: add a column of its time to the file")
+    running = _running(kinds, looked)
+    if running and not when and split_options["method"] == "random" and column_kinds.are_alike(inputs):
+        when, split_options = {"order": running}, {"method": "later"}
+        why_split = (
+            f"order, split: '{running}' is a running number and rows in turn are alike, so in time; please check"
+        )
+    elif not when and split_options["method"] == "random" and column_kinds.are_alike(inputs):
+        reasons.append("order: rows in turn are alike, as those of a recording: add a column of its time to the file")
     entry |= when | missing
     entry["split"] = split_options
     if column_kinds.affine_copies(inputs, values):
@@ -94,8 +96,9 @@ def guess_entry(
         entry["dimensions"] = 2
         reasons.append("dimensions: positions of two axes only, so a planar robot")
     used = (*commands, *positions, split_options.get("column"), *when.values())
-    if left_out := [name for name in table.names if name not in used]:
-        reasons.append(f"left out: {reasons_left_out(left_out, looked, {name: column_kind(name) for name in left_out})}")
+    left_out = [name for name in table.names if name not in used]
+    if left_out:
+        reasons.append(f"left out: {reasons_left_out(left_out, looked, {name: kind_of(name) for name in left_out})}")
     return entry, reasons
 
 
@@ -118,7 +121,7 @@ def _looked(path: Path, options: Mapping[str, Any] | None) -> tuple[Table, dict[
     return table, dict(zip(table.names, table.look(), strict=True))
 
 
-def column_kind(name: str) -> str | None:
+def kind_of(name: str) -> str | None:
     """What a column is by the words of its name, ignored without any; None where no word is known."""
     plain = re.sub(r"[^a-z]+", " ", re.split(r"[\[(]", name.lower())[0]).split()
     if not plain:
@@ -128,15 +131,15 @@ def column_kind(name: str) -> str | None:
 
 def _positions(names: Sequence[str], path: Path) -> tuple[list[str], int, list[str]]:
     """Columns of positions, marker by marker, how many per marker, and what a person must check of them."""
-    named = {name: axis for name in names if (axis := axis_of(name)) and column_kind(name) != "no position"}
+    named = {name: axis for name in names if (axis := axis_of(name)) and kind_of(name) != "no position"}
     for axes in ("xyz", *combinations("xyz", 2)):
         complete = [
             name for name, (rest, _) in named.items() if sorted(a for r, a in named.values() if r == rest) == [*axes]
         ]
         if complete:
-            columns = [name for name in complete if column_kind(name) != "command"] or complete
+            columns = [name for name in complete if kind_of(name) != "command"] or complete
             return marker_by_marker(columns), len(axes), []
-    numbered = column_kinds.numbered_positions([name for name in names if column_kind(name) is None])
+    numbered = column_kinds.numbered_positions([name for name in names if kind_of(name) is None])
     if numbered:
         return numbered, 3, ["positions: three numbered columns of one name; please check"]
     raise DataError(
@@ -187,6 +190,11 @@ def _values(table: Table, names: Sequence[str], looked: Mapping[str, Any]) -> tu
     count = int(np.isnan(values).any(axis=1).sum())
     why = f"missing: {count} of {len(values)} rows lack a number and are left out; please check"
     return values[~np.isnan(values).any(axis=1)], {"missing": "drop_rows"}, [why]
+
+
+def _running(kinds: Mapping[str, str | None], looked: Mapping[str, Any]) -> str | None:
+    """The first column that is a running number by its name and its numbers."""
+    return next((name for name in kinds if kinds[name] == "ignored" and column_kinds.is_running(looked[name])), None)
 
 
 def _unit(names: Sequence[str], values: Array, path: Path, table: Table) -> tuple[str, str]:

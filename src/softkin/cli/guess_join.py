@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from softkin.cli.guess_entry import column_kind
+from softkin.cli.guess_entry import kind_of
 from softkin.core.errors import DataError
 from softkin.data.readers.memory_table import Table
 
@@ -50,7 +50,7 @@ def _in_one_line(join: Mapping[str, Any]) -> str:
 def _by_column(looked: Sequence[Mapping[str, NDArray[Any]]]) -> tuple[dict[str, Any], str] | None:
     """A column of one name in all files whose values tell the rows apart in all of them but one."""
     for name in looked[0]:
-        if not all(name in columns for columns in looked) or column_kind(name) not in ("ignored", "group", "command"):
+        if not all(name in columns for columns in looked) or kind_of(name) not in ("ignored", "group", "command"):
             continue
         keys = [set(columns[name].tolist()) for columns in looked]
         n_repeating = sum(len(values) < len(columns[name]) for values, columns in zip(keys, looked, strict=True))
@@ -62,7 +62,7 @@ def _by_column(looked: Sequence[Mapping[str, NDArray[Any]]]) -> tuple[dict[str, 
 
 def _by_time(looked: Sequence[Mapping[str, NDArray[Any]]]) -> tuple[dict[str, Any], str] | None:
     """Columns of time, one in each file; a partner is at most one step of the others away."""
-    names = [next((n for n in columns if column_kind(n) == "time" and _rises(columns[n])), None) for columns in looked]
+    names = [next((n for n in columns if kind_of(n) == "time" and _rises(columns[n])), None) for columns in looked]
     if any(name is None for name in names):
         return None
     times = [columns[str(name)] for name, columns in zip(names, looked, strict=True)]

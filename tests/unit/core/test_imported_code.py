@@ -103,6 +103,11 @@ def test_a_reader_is_decided_by_the_files_that_it_reads_with() -> None:
         "c3d_file",
         "excel_workbook",
         "feather_file",
+        "file_bundle",
+        "joined_tables",
+        "partner_rows",
+        "several_files",
+        "stacked_tables",
         "hdf5_file",
         "ndi_export",
         "optional_library",
@@ -124,7 +129,13 @@ def test_a_reader_is_decided_by_the_files_that_it_reads_with() -> None:
         "motive_export",
     }
     expected = {f"data/readers/{name}.py" for name in tables} | {"data/split.py", "core/samples.py"}
-    expected |= {"core/recording.py", "data/recordings.py", "data/split_in_time.py"}
+    expected |= {
+        "data/own_files.py",
+        "data/blocks.py",
+        "core/recording.py",
+        "data/recordings.py",
+        "data/split_in_time.py",
+    }
     assert names("table_file") == expected
     assert names("published_json") == {"data/readers/published_json.py", "core/samples.py", "core/recording.py"}
     assert "data/standins/cosserat_rod.py" in names("simulated")
