@@ -76,7 +76,7 @@ def table_of(content: bytes) -> Callable[[Path], None]:
 
 
 def workbook_of_two_sheets(folder: Path) -> None:
-    sheets = {"a": [["u1"], [1]], "b": [["x"], [1]]}
+    sheets: dict[str, Any] = {"a": [["u1"], [1]], "b": [["x"], [1]]}
     table_of(write_workbook(folder / "arm.xlsx", sheets).read_bytes())(folder)
 
 
