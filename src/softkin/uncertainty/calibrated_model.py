@@ -13,12 +13,11 @@ from numpy.typing import NDArray
 
 from softkin.core.samples import Array, Samples, informative_coordinates
 from softkin.models.spec import PointModel
-from softkin.training.predict import spread_of
 from softkin.uncertainty import calls
 from softkin.uncertainty.alarm import Watch
 from softkin.uncertainty.answers import bounds_frame, like
-from softkin.uncertainty.calibration_data import PointCalibration, Shell, SpreadCalibration
-from softkin.uncertainty.conformal import around, conformal_limit, joint_scores, p_values
+from softkin.uncertainty.calibration_data import PointCalibration, Shell
+from softkin.uncertainty.conformal import conformal_limit, joint_scores, p_values
 from softkin.uncertainty.control_loop import State, error_of
 from softkin.uncertainty.described import described
 from softkin.uncertainty.failures import FailureClass
@@ -26,7 +25,7 @@ from softkin.uncertainty.file_format import restore, stored_state
 from softkin.uncertainty.intervals.spec import IntervalMethod
 from softkin.uncertainty.joint_intervals import JointAnswers, JointIntervals
 from softkin.uncertainty.joint_region import JointRegion
-from softkin.uncertainty.new_session import labelled_errors, widened, zero_spread
+from softkin.uncertainty.new_session import labelled_errors, zero_spread
 from softkin.uncertainty.prepared import Prepared
 from softkin.uncertainty.recalibration import Recalibration, recalibration
 
@@ -138,7 +137,9 @@ class CalibratedModel:
         if predicted is not None:
             predicted = calls.position_rows(predicted, self.names, len(inputs), f"{self.dataset}, predicted")
         ascending = sorted(set(levels))
-        bounds = self._bounds(inputs, ascending, self._predicted(inputs) if predicted is None else predicted)
+        bounds = self._prepared.bounds(
+            inputs, tuple(ascending), self._predicted(inputs) if predicted is None else predicted
+        )
         if levels != ascending:
             bounds = bounds[[ascending.index(level) for level in levels]]
         if isinstance(commands, (pd.DataFrame, pd.Series)):
@@ -203,20 +204,12 @@ class CalibratedModel:
 
     def _predicted(self, inputs: Array) -> Array:
         """Positions (n_rows, n_coordinates) of inputs that are checked."""
-        predicted = np.asarray(self.estimator.predict(inputs))
-        return predicted if self.recalibration is None else predicted + self.recalibration.zero
+        return self._prepared.predicted(inputs)
 
     def _bounds(self, inputs: Array, levels: Sequence[float], predicted: Array) -> Array:
         """Intervals (n_levels, n_rows, n_coordinates, 2) at ascending levels."""
-        data = replace(self.known, new=predicted, new_commands=self._commands(inputs))
-        if self.recalibration is not None:
-            bounds = around(predicted[None], self.recalibration.half_widths(self._residuals(), levels))
-        else:
-            if isinstance(data, SpreadCalibration):
-                data = replace(data, new_spread=spread_of(self.spec, self.estimator, self.train, inputs))
-            bounds = widened(self._prepared.in_domain(data, tuple(levels)), predicted, self.estimator, inputs, levels)
-        bounds = self._prepared.everywhere(data, bounds, tuple(levels))
-        return bounds if self.failures is None else self.failures.widened(bounds, data.new_commands, levels)
+        bounds = self._prepared.bounds(inputs, tuple(levels), predicted)
+        return bounds if self.failures is None else self.failures.widened(bounds, self._commands(inputs), levels)
 
     def _residuals(self) -> Array:
         """Residuals (n_calibration, n_coordinates) of the calibration set, mm."""
@@ -233,11 +226,15 @@ class CalibratedModel:
         return informative_coordinates(self.train.positions)
 
     def _checked(self, commands: calls.Rows) -> Array:
-        return calls.command_rows(commands, self.names, self.train.inputs.shape[1], self.dataset)
+        return calls.command_rows(commands, self.names, self._n_inputs, self.dataset)
+
+    @cached_property
+    def _n_inputs(self) -> int:
+        return int(self.train.inputs.shape[1])
 
     @cached_property
     def _prepared(self) -> Prepared:
-        return Prepared(self.method, self.known, self.shells, self.norm)
+        return Prepared(self)
 
     @cached_property
     def _joint(self) -> JointAnswers:

@@ -162,6 +162,15 @@ def normalised_intervals(
     return result
 
 
+def normalised_sides(data: PointCalibration, difficulty: Array, confidence_levels: Sequence[float]) -> Array:
+    """Sides (n_levels, n_coordinates, 2) of `normalised_intervals`, in units of the difficulty (n_rows, n_coordinates)
+    of the calibration rows.
+    """
+    scores = np.abs(data.truth - data.calibration) / np.maximum(difficulty, TINY)
+    limits = conformal_limits(scores, confidence_levels)
+    return np.stack([-limits, limits], axis=-1)
+
+
 @contextmanager
 def global_random_state_kept() -> Iterator[None]:
     """Restore numpy's global random state on exit: engines seed it."""

@@ -8,7 +8,7 @@ from typing import Any
 from softkin.core.errors import ResultError
 
 #: Raised by one when what is in the file changes. A file of another format is refused.
-FORMAT = 4
+FORMAT = 5
 
 
 def stored_state(robot: Any) -> dict[str, Any]:

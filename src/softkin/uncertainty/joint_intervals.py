@@ -15,10 +15,10 @@ from softkin.core.metrics.interval import geometric_size
 from softkin.core.samples import Array
 from softkin.uncertainty import calls
 from softkin.uncertainty.answers import bounds_frame, index_of, like
+from softkin.uncertainty.beyond import Beyond
 from softkin.uncertainty.calibration_data import PointCalibration
 from softkin.uncertainty.conformal import conformal_limits
 from softkin.uncertainty.new_session import unseen_zero
-from softkin.uncertainty.prepared import Prepared
 from softkin.uncertainty.recalibration import PRIOR_POSES
 
 
@@ -105,13 +105,12 @@ class JointAnswers:
             zeros, region.scores[:, None], zeros[:0], robot.known.train_commands, robot.known.calibration_commands,
             robot.known.new_commands,
         )  # fmt: skip
-        self.sizes = Prepared(robot.method, known, region.shells, robot.norm)
+        self.sizes = Beyond(known, region.shells, robot.norm)
 
     def intervals(self, commands: calls.Rows, confidence_levels: float | Sequence[float] | Array) -> JointIntervals:
         """As `CalibratedModel.joint_intervals`."""
         robot, region = self.robot, self.robot.joint
-        n_inputs = robot.train.inputs.shape[1]
-        inputs = calls.command_rows(commands, robot.names, n_inputs, robot.dataset)
+        inputs = calls.command_rows(commands, robot.names, robot._n_inputs, robot.dataset)
         levels, is_one = calls.levels_of(confidence_levels, robot.dataset)
         size = self._size(inputs, tuple(levels))[..., None] * self._stretch(levels)
         zero = self._zero(inputs, levels)
@@ -162,7 +161,7 @@ class JointAnswers:
         if not outside.any():
             return size
         commands = inputs[:, : self.robot.train.commands.shape[1]]
-        return np.where(outside, self.sizes.half_widths_outside(commands, levels)[..., 0], size)
+        return np.where(outside, self.sizes.half_widths(commands, levels)[..., 0], size)
 
     def _stretch(self, levels: Sequence[float]) -> Array:
         """How many times (n_levels, 1, n_moving) the errors of each coordinate are those of the calibration set: 1, or

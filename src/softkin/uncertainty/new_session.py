@@ -47,15 +47,21 @@ def unseen_zero(estimator: Any, inputs: Array, confidence_levels: Sequence[float
     """How far (n_levels, n_rows, n_coordinates) in mm the zero of a session never seen lies from the average at most,
     at each level; 0 for rows of known sessions, None where there is none else.
     """
+    of_unseen = zero_of_unseen(estimator, confidence_levels)
+    if of_unseen is None:
+        return None
+    unseen = ~np.isin(estimator.inputs(inputs)[:, -1], estimator.sessions_)
+    return np.asarray(of_unseen[:, None] * unseen[:, None]) if unseen.any() else None
+
+
+def zero_of_unseen(estimator: Any, confidence_levels: Sequence[float]) -> Array | None:
+    """The same (n_levels, n_coordinates) of any session never seen; None where fewer than two are known."""
     spread = zero_spread(estimator)
     if spread is None:
         return None
     n_sessions = len(estimator.sessions_)
-    unseen = ~np.isin(estimator.inputs(inputs)[:, -1], estimator.sessions_)
-    if not unseen.any():
-        return None
     quantiles = t.ppf((1 + np.asarray(confidence_levels)) / 2, n_sessions - 1)
-    return np.asarray(quantiles[:, None, None] * spread * np.sqrt(1 + 1 / n_sessions) * unseen[:, None])
+    return np.asarray(quantiles[:, None] * spread * np.sqrt(1 + 1 / n_sessions))
 
 
 def labelled_errors(robot: Any, commands: calls.Rows, positions: calls.Rows) -> Array:

@@ -1,135 +1,169 @@
-"""What of a calibrated model's answers does not depend on the command, worked out once."""
+"""Answers of a calibrated model, from what does not depend on the command: worked out once, in plain numbers."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from functools import cached_property, lru_cache
-from typing import Any
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cached_property, lru_cache, partial
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import solve_triangular
+from scipy.linalg.blas import dtrsv
 
+from softkin.core.errors import ConfigError
 from softkin.core.samples import Array
-from softkin.core.shells import command_norm
-from softkin.uncertainty.calibration_data import PointCalibration, Shell, ShellCalibration
-from softkin.uncertainty.conformal import around, conformal_limits
-from softkin.uncertainty.error_growth import ErrorGrowth, fit_error_growth, shell_distances, train_radius
-from softkin.uncertainty.intervals.rolling_shells import largest_limits
-from softkin.uncertainty.intervals.spec import IntervalMethod
+from softkin.models.plain.kernels import Node
+from softkin.training.predict import spread_of
+from softkin.uncertainty.beyond import Beyond
+from softkin.uncertainty.calibration_data import SpreadCalibration
+from softkin.uncertainty.intervals.spec import Scaled
+from softkin.uncertainty.new_session import widened, zero_of_unseen
+from softkin.uncertainty.plain.describe_robot import (
+    estimator_numbers,
+    growth_numbers,
+    memory_numbers,
+    place_numbers,
+)
+from softkin.uncertainty.plain.robot import PlainRobot
 
 Levels = tuple[float, ...]
-#: Limits of so many choices of levels are kept.
+#: Tables of so many choices of levels are kept.
 KEPT_LEVELS = 64
-#: With more commands than this scikit-learn searches neighbours without a tree.
-MOST_TREE_COMMANDS = 15
 
 
 class Prepared:
-    """The same bounds as `method` and `in_domain_and_extrapolation` give, without fitting anything for each command.
+    """The positions that the estimator of a calibrated `robot` predicts, and the bounds that its method and
+    `in_domain_and_extrapolation` give, without fitting anything for each command.
 
-    Parameters:
-        method: the deployed method.
-        known: its calibration data, without new rows.
-        shells, norm: as of the calibrated model.
+    One row is answered from plain numbers, many are handed to the estimator: the same but for the order of sums.
     """
 
-    def __init__(
-        self,
-        method: IntervalMethod[Any],
-        known: PointCalibration,
-        shells: Sequence[Shell],
-        norm: Callable[[Array], Array] | None,
-    ) -> None:
-        self.method, self.known = method, known
-        self.has_shells = norm is not None
-        self.norm = norm or command_norm(known.train_commands, standardised=True).of
-        self.data = ShellCalibration(known, shells, self.norm)
-        self.radius = train_radius(self.data)
-        self._sides = lru_cache(KEPT_LEVELS)(self._sides_at)
-        self._limits = lru_cache(KEPT_LEVELS)(self._limits_at)
+    def __init__(self, robot: Any) -> None:
+        self.robot, self.known = robot, robot.known
+        self.beyond = Beyond(robot.known, robot.shells, robot.norm)
+        self.table = lru_cache(KEPT_LEVELS)(self._table_at)
+        self._last: tuple[bytes, tuple[Array, Array | None]] | None = None
 
-    def in_domain(self, data: PointCalibration, levels: Levels) -> Array:
-        """Intervals (n_levels, n_rows, n_coordinates, 2) in mm of the deployed method at the new rows of `data`."""
-        if self.method.has_constant_width and not self.method.calibrated_on.has_spread:
-            return np.asarray(data.new[..., None] + self._sides(levels))
-        return np.asarray(self.method.intervals(data, levels))
+    def predicted(self, inputs: Array) -> Array:
+        """Positions (n_rows, n_coordinates) in mm at inputs that are checked."""
+        if len(inputs) == 1 and self.plain.members:
+            return self._placed(inputs)[0].copy()
+        predicted = np.asarray(self.robot.estimator.predict(inputs))
+        return predicted if self.robot.recalibration is None else predicted + self.robot.recalibration.zero
 
-    def everywhere(self, data: PointCalibration, bounds: Array, levels: Levels) -> Array:
-        """In-domain `bounds` (n_levels, n_rows, n_coordinates, 2) at the new rows of `data`; in extrapolation what
-        `in_domain_and_extrapolation.intervals` makes of them, where there are shells.
-        """
-        if not self.has_shells:
+    def bounds(self, inputs: Array, levels: Levels, predicted: Array) -> Array:
+        """Intervals (n_levels, n_rows, n_coordinates, 2) in mm at ascending levels, around positions `predicted`."""
+        commands, table = inputs[:, : self.robot.train.commands.shape[1]], self.table(levels)
+        if self.is_scaled:
+            spread = self._spread(inputs) if self.plain.difficulty["kind"] == "spread" else None
+            bounds = self.plain.in_domain(inputs, predicted, spread, table)
+        else:
+            bounds = self._by_method(inputs, levels, predicted)
+        if not self.beyond.has_shells:
             return bounds
-        outside = self.is_outside(data.new_commands)
-        if not outside.any():
-            return bounds
-        wider = around(data.new, self.half_widths_outside(data.new_commands, levels))
-        if self.method.calibrated_on.has_spread:
-            lower, upper = np.minimum(bounds[..., 0], wider[..., 0]), np.maximum(bounds[..., 1], wider[..., 1])
-            wider = np.stack([lower, upper], axis=-1)
-        return np.where(outside[:, None, None], wider, bounds)
-
-    def half_widths_outside(self, commands: Array, levels: Levels) -> Array:
-        """Half-widths (n_levels, n_rows, n_coordinates) in mm that commands (n_rows, n_commands) have where they lie in
-        extrapolation; there must be shells.
-        """
-        limits, of_growths = self._limits(levels)
-        distances = np.maximum(self.norm(commands) / self.radius, 1.0)
-        widest = np.broadcast_to(limits, (len(levels), len(commands), limits.shape[-1]))
-        for growth, largest in zip(self.growths, of_growths, strict=True):
-            widest = np.maximum(widest, largest[:, None] * growth.of_new(distances))
-        return np.asarray(widest)
+        outside, norms = self.beyond.place(commands)
+        return self.plain.everywhere(bounds, predicted, outside, norms, table)
 
     def is_outside(self, commands: Array) -> NDArray[np.bool_]:
         """Which commands (n_rows, n_commands) lie in extrapolation, (n_rows,); as
         `in_domain_and_extrapolation.is_in_extrapolation`.
         """
-        scaler, tree, widest_gap = self._neighbours
-        nearest = tree((commands - scaler.mean_) / scaler.scale_)
-        return np.asarray((nearest > widest_gap) | (self.norm(commands) > self.radius))
+        return self.beyond.is_outside(commands)
 
     def make_ready(self, levels: Levels) -> None:
         """Work everything out now, for these levels, so that the first command takes no longer than the others."""
+        inputs = self.robot.train.inputs[:1]
+        self.bounds(inputs, levels, self.predicted(inputs))
         self.is_outside(self.known.train_commands[:1])
-        if self.method.has_constant_width and not self.method.calibrated_on.has_spread:
-            self._sides(levels)
-        if self.has_shells:
-            self._limits(levels)
+
+    @property
+    def is_scaled(self) -> bool:
+        """Whether in-domain bounds are known in plain numbers."""
+        return self.robot.recalibration is not None or self.robot.method.scaled is not None
 
     @cached_property
-    def growths(self) -> list[ErrorGrowth]:
-        """The error-growth models of the shells."""
-        return fit_error_growth(self.data)
+    def plain(self) -> PlainRobot:
+        """The robot in plain numbers."""
+        return PlainRobot(self.numbers, _by_lapack)
 
     @cached_property
-    def _neighbours(self) -> tuple[Any, Callable[[Array], Array], float]:
-        """Scaler of commands, the distance (n_rows,) of scaled commands to their nearest of `train`, its widest gap."""
-        from sklearn.neighbors import KDTree, NearestNeighbors
-        from sklearn.preprocessing import StandardScaler
-
-        train = self.known.train_commands
-        scaler = StandardScaler().fit(train)
-        distinct = np.unique(scaler.transform(train), axis=0)
-        finder = NearestNeighbors(n_neighbors=1).fit(distinct)
-        widest_gap = float(finder.kneighbors()[0].max())
-        if train.shape[1] > MOST_TREE_COMMANDS:
-            return scaler, lambda rows: finder.kneighbors(rows)[0][:, 0], widest_gap
-        tree = KDTree(distinct, leaf_size=30)
-        return scaler, lambda rows: tree.query(rows, k=1)[0][:, 0], widest_gap
-
-    def _sides_at(self, levels: Levels) -> Array:
-        """Minus and plus the half-widths (n_levels, 1, n_coordinates, 2): the bounds around a position of 0."""
-        from dataclasses import replace
-
-        zero = replace(
-            self.known, new=np.zeros((1, self.known.truth.shape[1])), new_commands=self.known.train_commands[:1]
-        )
-        return np.asarray(self.method.intervals(zero, levels))
-
-    def _limits_at(self, levels: Levels) -> tuple[Array, list[Array]]:
-        """Limits (n_levels, 1, n_coordinates) of the errors on the calibration set, and those of each error-growth
-        model (n_levels, n_coordinates), in units of what it predicts.
+    def numbers(self) -> Node:
+        """All but the tables of levels. Without `members`, its estimator cannot be written as plain numbers; without
+        a `centre`, its command norm cannot.
         """
-        errors, places = np.abs(self.known.truth - self.known.calibration), shell_distances(self.data)
-        of_growths = [largest_limits(self.data.shells, growth, places, levels) for growth in self.growths]
-        return conformal_limits(errors, levels)[:, None], of_growths
+        robot, method = self.robot, self.robot.method
+        is_new = robot.recalibration is not None or method.scaled is None
+        difficulty: Node = {"kind": "none"} if is_new else dict(self._scaled.difficulty)
+        try:
+            has_spread = difficulty["kind"] == "spread"
+            members = estimator_numbers(robot.estimator, robot.train, has_spread=has_spread)
+        except ConfigError:
+            members = {"members": [], "shares": np.zeros(0)}
+        n_coordinates = self.known.truth.shape[1]
+        return members | {
+            "n_commands": robot.train.commands.shape[1],
+            "memory": memory_numbers(robot.estimator),
+            "zero": np.zeros(n_coordinates) if robot.recalibration is None else robot.recalibration.zero,
+            "difficulty": difficulty,
+            "surroundings": place_numbers(self.beyond),
+            "growths": [growth_numbers(growth) for growth in self.beyond.growths] if self.beyond.has_shells else None,
+            "has_spread": method.calibrated_on.has_spread,
+        }
+
+    @cached_property
+    def _scaled(self) -> Scaled:
+        return cast(Scaled, self.robot.method.scaled(self.known))
+
+    def _table_at(self, levels: Levels) -> Node:
+        """Numbers of these levels: `sides` (n_levels, n_coordinates, 2) of the in-domain bounds, what the `zero` of a
+        session never seen adds, `limits` (n_levels, n_coordinates) of the errors on the calibration set, and those of
+        each error-growth model, in units of what it predicts.
+        """
+        robot = self.robot
+        table: Node = {"sides": None, "zero": None, "limits": None, "growth_limits": []}
+        errors = self.known.truth - self.known.calibration
+        if robot.recalibration is not None:
+            half = robot.recalibration.half_widths(errors, levels)[:, 0]
+            table["sides"] = np.stack([-half, half], axis=-1)
+        elif robot.method.scaled is not None:
+            table |= {"sides": self._scaled.sides(levels), "zero": zero_of_unseen(robot.estimator, levels)}
+        if self.beyond.has_shells:
+            table["limits"], table["growth_limits"] = self.beyond.limits(levels)
+        return table
+
+    def _by_method(self, inputs: Array, levels: Levels, predicted: Array) -> Array:
+        """In-domain bounds of a method that is not known in plain numbers."""
+        robot = self.robot
+        data = replace(self.known, new=predicted, new_commands=inputs[:, : robot.train.commands.shape[1]])
+        if isinstance(data, SpreadCalibration):
+            data = replace(data, new_spread=self._spread(inputs))
+        return widened(robot.method.intervals(data, levels), predicted, robot.estimator, inputs, levels)
+
+    def _spread(self, inputs: Array) -> Array:
+        """Spread (n_rows, n_coordinates) in mm of the estimator."""
+        found = self._placed(inputs)[1] if self.plain.members else None
+        return spread_of(self.robot.spec, self.robot.estimator, self.robot.train, inputs) if found is None else found
+
+    def _placed(self, inputs: Array) -> tuple[Array, Array | None]:
+        """Positions and spreads from plain numbers; those of the last row are kept."""
+        if len(inputs) > 1:
+            return self.plain.placed(inputs)
+        key = inputs.tobytes()
+        last = self._last
+        if last is None or last[0] != key:
+            self._last = last = key, self.plain.placed(inputs)
+        return last[1]
+
+
+def _by_lapack(lower: Array) -> Callable[[Array], Array]:
+    """Solves for a lower triangle (n, n) as scikit-learn does, and faster for one column."""
+    of_one = partial(dtrsv, lower, lower=1) if lower.flags.f_contiguous else partial(dtrsv, lower.T, lower=0, trans=1)
+
+    def solved(right: Array) -> Array:
+        if right.shape[1] == 1:
+            return np.asarray(of_one(right[:, 0]))[:, None]
+        return np.asarray(solve_triangular(lower, right, lower=True, check_finite=False))
+
+    return solved

@@ -72,7 +72,7 @@ def test_what_was_changed_is_never_run(model: Path, arguments: dict[str, Any]) -
 
 def test_another_format_is_refused_in_a_sentence(model: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(file_format, "FORMAT", file_format.FORMAT + 1)
-    with pytest.raises(ResultError, match="of format 4, where this version of softkin reads 5") as caught:
+    with pytest.raises(ResultError, match="of format 5, where this version of softkin reads 6") as caught:
         load(model)
     assert caught.value.where == str(model)
     assert "run the workflow again" in str(caught.value.fix)

@@ -9,7 +9,7 @@ import pytest
 
 from softkin.core.shells import command_norm
 from softkin.training.predict import spread_of
-from softkin.uncertainty import error_growth, prepared
+from softkin.uncertainty import beyond, error_growth
 from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.calibration_data import ShellCalibration, SpreadCalibration
 from softkin.uncertainty.intervals import in_domain_and_extrapolation
@@ -72,7 +72,7 @@ def test_nothing_is_fitted_twice(monkeypatch: pytest.MonkeyPatch) -> None:
         fits.append(1)
         return error_growth.fit_error_growth(data)
 
-    monkeypatch.setattr(prepared, "fit_error_growth", counted)
+    monkeypatch.setattr(beyond, "fit_error_growth", counted)
     robot = replace(small_robot(shells=True))
     for row in NEW[:40]:
         robot.intervals(row, 0.9)
@@ -86,7 +86,7 @@ def test_a_control_loop_has_everything_ready_before_its_first_command(monkeypatc
     def fitted(data: ShellCalibration) -> list[error_growth.ErrorGrowth]:
         raise AssertionError(data)
 
-    monkeypatch.setattr(prepared, "fit_error_growth", fitted)
-    monkeypatch.setattr(prepared, "conformal_limits", fitted)
+    monkeypatch.setattr(beyond, "fit_error_growth", fitted)
+    monkeypatch.setattr(beyond, "conformal_limits", fitted)
     far = state.step(NEW[np.argmax(np.linalg.norm(NEW, axis=1))])
     assert np.isfinite(far.upper).all()

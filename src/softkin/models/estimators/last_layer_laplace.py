@@ -24,16 +24,24 @@ def last_layer_laplace(network: MLPRegressor, train: Samples, commands: Array) -
     and a one. The noise is that of its own residuals there, a coordinate at a time, for the degrees of freedom left.
     Source: Daxberger et al. (2021), Laplace Redux, section 3; for a Gaussian likelihood it is exact.
     """
-    known, new = (_hidden(network, rows) for rows in (train.commands, commands))
+    factor, noise = last_layer_posterior(network, train)
+    new = _hidden(network, commands)
+    leverage = np.einsum("ij,ji->i", new, cho_solve(factor, new.T))
+    return np.asarray(np.sqrt(1.0 + leverage)[:, None] * noise)
+
+
+def last_layer_posterior(network: MLPRegressor, train: Samples) -> tuple[tuple[Array, bool], Array]:
+    """Cholesky factor of the precision of the last layer's weights, as `cho_factor` gives it, in units of the noise;
+    and the noise (n_coordinates,).
+    """
+    known = _hidden(network, train.commands)
     gram = known.T @ known
     penalty = np.full(len(gram), max(float(network.alpha), LEAST_PRECISION * float(np.trace(gram)) / len(gram)))
     penalty[-1] = 0.0  # the bias is free
     factor = cho_factor(gram + np.diag(penalty))
     residuals = train.positions - network.predict(train.commands).reshape(train.positions.shape)
     freedom = max(1.0, len(known) - float(np.trace(cho_solve(factor, gram))))
-    noise = np.sqrt((residuals**2).sum(axis=0) / freedom)
-    leverage = np.einsum("ij,ji->i", new, cho_solve(factor, new.T))
-    return np.asarray(np.sqrt(1.0 + leverage)[:, None] * noise)
+    return factor, np.sqrt((residuals**2).sum(axis=0) / freedom)
 
 
 def _hidden(network: MLPRegressor, commands: Array) -> Array:

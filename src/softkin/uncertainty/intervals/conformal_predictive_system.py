@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 
 from softkin.core.samples import Array
 from softkin.uncertainty.calibration_data import PointCalibration
 from softkin.uncertainty.conformal import columns, conformal_rank, two_sided_rank, unbounded
-from softkin.uncertainty.intervals.spec import MARGINAL, IntervalMethod
+from softkin.uncertainty.intervals.spec import MARGINAL, IntervalMethod, as_at_zero
 
 
 def intervals(data: PointCalibration, confidence_levels: Sequence[float]) -> Array:
@@ -66,4 +67,5 @@ METHOD = IntervalMethod(
     intervals=intervals,
     rank=two_sided_rank,
     crps=crps,
+    scaled=partial(as_at_zero, intervals),
 )

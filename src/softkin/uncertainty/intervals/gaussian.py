@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from softkin.core.samples import Array
 from softkin.uncertainty.calibration_data import PredictiveCalibration
-from softkin.uncertainty.intervals.spec import NO_GUARANTEE, IntervalMethod
+from softkin.uncertainty.intervals.spec import NO_GUARANTEE, IntervalMethod, Scaled
 
 
 def intervals(data: PredictiveCalibration, confidence_levels: Sequence[float]) -> Array:
@@ -32,6 +33,14 @@ def crps(data: PredictiveCalibration, true: Array) -> Array:
     return np.where(std > 0, score, np.abs(error))
 
 
+def scaled(data: PredictiveCalibration) -> Scaled:
+    """The same in plain numbers."""
+    n_coordinates = data.truth.shape[1]
+    unit = replace(data, new=np.zeros((1, n_coordinates)), new_spread=np.ones((1, n_coordinates)))
+    none = {"kind": "spread", "least": np.zeros(n_coordinates), "floor": 0.0}
+    return Scaled(lambda confidence_levels: intervals(unit, confidence_levels)[:, 0], none)
+
+
 METHOD = IntervalMethod(
     "gaussian",
     "Model's own interval",
@@ -39,4 +48,5 @@ METHOD = IntervalMethod(
     guarantee=NO_GUARANTEE,
     intervals=intervals,
     crps=crps,
+    scaled=scaled,
 )

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import Generic, TypeVar
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Generic, TypeVar
+
+import numpy as np
 
 from softkin.core.samples import Array
-from softkin.uncertainty.calibration_data import CalibrationData, QuantileCalibration
+from softkin.uncertainty.calibration_data import CalibrationData, PointCalibration, QuantileCalibration
 
 #: Intervals of a calibrated model in extrapolation: those of the method of that name, or the same as in-domain.
 AUTO, IN_DOMAIN = REGIMES = ("auto", "in_domain")
@@ -19,6 +21,16 @@ Data = TypeVar("Data", bound=CalibrationData)
 
 
 @dataclass(frozen=True, slots=True)
+class Scaled:
+    """A method whose bounds are the prediction plus `sides(confidence_levels)` (n_levels, n_coordinates, 2) in mm times
+    the difficulty of the command; the `difficulty` is a kind and its numbers, as `PlainRobot` reads them.
+    """
+
+    sides: Callable[[Sequence[float]], Array]
+    difficulty: Mapping[str, Any]
+
+
+@dataclass(frozen=True, slots=True)
 class IntervalMethod(Generic[Data]):
     """One way to put an interval around a predicted position.
 
@@ -27,7 +39,8 @@ class IntervalMethod(Generic[Data]):
     `rank(n_calibration, level)` is the rank of which its coverage on exchangeable rows is beta-binomial; None when the
     method calibrates nothing. `has_constant_width`: symmetric, of the same width on every row.
     `crps(data, true)` (n_rows, n_coordinates) in mm, for a method that gives a distribution. `at_fitted_levels`: it has
-    intervals at those levels only that quantiles were fitted for.
+    intervals at those levels only that quantiles were fitted for. `scaled(data)` is the method in plain numbers, from
+    which one command is answered and models are exported; a method around a point model without it is slower.
     """
 
     name: str
@@ -39,8 +52,18 @@ class IntervalMethod(Generic[Data]):
     has_constant_width: bool = False
     crps: Callable[[Data, Array], Array] | None = None
     at_fitted_levels: bool = False
+    scaled: Callable[[Data], Scaled] | None = None
 
     def levels(self, data: Data, confidence_levels: Sequence[float]) -> list[float]:
         """Those of the levels that it has intervals for, on these calibration data."""
         fitted = data.levels if isinstance(data, QuantileCalibration) and self.at_fitted_levels else confidence_levels
         return [level for level in confidence_levels if level in fitted]
+
+
+Point = TypeVar("Point", bound=PointCalibration)
+
+
+def as_at_zero(intervals: Callable[[Point, Sequence[float]], Array], data: Point) -> Scaled:
+    """`scaled`, once the first argument is given, of a method that puts the same bounds around every prediction."""
+    zero = replace(data, new=np.zeros((1, data.truth.shape[1])), new_commands=data.train_commands[:1])
+    return Scaled(lambda confidence_levels: intervals(zero, confidence_levels)[:, 0], {"kind": "none"})

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 from softkin.core.samples import Array
 from softkin.uncertainty.calibration_data import PointCalibration
 from softkin.uncertainty.conformal import columns, conformal_rank, engine_level, unbounded
-from softkin.uncertainty.intervals.spec import MARGINAL, IntervalMethod
+from softkin.uncertainty.intervals.spec import MARGINAL, IntervalMethod, as_at_zero
 
 
 def intervals(data: PointCalibration, confidence_levels: Sequence[float]) -> Array:
@@ -39,4 +40,5 @@ METHOD = IntervalMethod(
     intervals=intervals,
     rank=conformal_rank,
     has_constant_width=True,
+    scaled=partial(as_at_zero, intervals),
 )

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
 from softkin.core.samples import Array
 from softkin.uncertainty.calibration_data import PointCalibration
-from softkin.uncertainty.conformal import conformal_rank, normalised_intervals
-from softkin.uncertainty.intervals.spec import MARGINAL, IntervalMethod
+from softkin.uncertainty.conformal import TINY, conformal_rank, normalised_intervals, normalised_sides
+from softkin.uncertainty.intervals.spec import MARGINAL, IntervalMethod, Scaled
 
 NEIGHBOURS = 10
 #: The corners of the box of `train` are enumerated in so many dimensions at most.
@@ -35,24 +36,52 @@ def intervals(data: PointCalibration, confidence_levels: Sequence[float]) -> Arr
     )
 
 
+def scaled(data: PointCalibration) -> Scaled:
+    """The same in plain numbers."""
+    (calibration,) = distances(data.train_commands, [data.calibration_commands])
+    difficulty = np.tile(calibration[:, None], (1, data.truth.shape[1]))
+    numbers, _ = _measured(data.train_commands)
+    return Scaled(
+        lambda confidence_levels: normalised_sides(data, difficulty, confidence_levels),
+        {"kind": "distance", "floor": TINY} | numbers,
+    )
+
+
 def distances(train: Array, others: Sequence[Array]) -> list[Array]:
     """Difficulty (n_rows,) of each set of commands in `others`, (n_rows, n_commands) as `train`."""
+    numbers, finder = _measured(train)
+    difficulties = []
+    for commands in others:
+        rows = (commands - numbers["mean"]) / numbers["scale"]
+        beyond = np.linalg.norm(rows - np.clip(rows, numbers["low"], numbers["high"]), axis=1)
+        near = np.minimum(finder.kneighbors(rows)[0].mean(axis=1), numbers["emptiest"])
+        far = np.where(beyond > 0, numbers["emptiest"] + beyond, near)
+        difficulties.append(LEAST_DIFFICULTY + far / numbers["unit"])
+    return difficulties
+
+
+def _measured(train: Array) -> tuple[dict[str, Any], Any]:
+    """What distances are measured by, and what finds neighbours among the standardised commands of `train`."""
     from sklearn.neighbors import NearestNeighbors
     from sklearn.preprocessing import StandardScaler
 
     scaler = StandardScaler().fit(train)
     known = scaler.transform(train)
-    finder = NearestNeighbors(n_neighbors=min(NEIGHBOURS, len(train) - 1)).fit(known)
+    neighbours = min(NEIGHBOURS, len(train) - 1)
+    finder = NearestNeighbors(n_neighbors=neighbours).fit(known)
     within = float(finder.kneighbors()[0].mean())
-    unit = within if within > 0 else 1.0  # 0: each command has many copies
     low, high = known.min(axis=0), known.max(axis=0)
-    emptiest = float(finder.kneighbors(_corners(low, high))[0].mean(axis=1).max())
-    difficulties = []
-    for rows in map(scaler.transform, others):
-        beyond = np.linalg.norm(rows - np.clip(rows, low, high), axis=1)
-        near = np.minimum(finder.kneighbors(rows)[0].mean(axis=1), emptiest)
-        difficulties.append(LEAST_DIFFICULTY + np.where(beyond > 0, emptiest + beyond, near) / unit)
-    return difficulties
+    return {
+        "mean": scaler.mean_,
+        "scale": scaler.scale_,
+        "points": known,
+        "neighbours": neighbours,
+        "unit": within if within > 0 else 1.0,  # 0: each command has many copies
+        "low": low,
+        "high": high,
+        "emptiest": float(finder.kneighbors(_corners(low, high))[0].mean(axis=1).max()),
+        "least": LEAST_DIFFICULTY,
+    }, finder
 
 
 def _corners(low: Array, high: Array) -> Array:
@@ -70,4 +99,5 @@ METHOD = IntervalMethod(
     guarantee=MARGINAL,
     intervals=intervals,
     rank=conformal_rank,
+    scaled=scaled,
 )

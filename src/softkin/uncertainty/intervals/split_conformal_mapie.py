@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 
 from softkin.core.samples import Array
 from softkin.uncertainty.calibration_data import PointCalibration
 from softkin.uncertainty.conformal import columns, conformal_rank, engine_level, global_random_state_kept, unbounded
-from softkin.uncertainty.intervals.spec import MARGINAL, IntervalMethod
+from softkin.uncertainty.intervals.spec import MARGINAL, IntervalMethod, as_at_zero
 
 
 def intervals(data: PointCalibration, confidence_levels: Sequence[float]) -> Array:
@@ -47,4 +48,5 @@ METHOD = IntervalMethod(
     intervals=intervals,
     rank=conformal_rank,
     has_constant_width=True,
+    scaled=partial(as_at_zero, intervals),
 )

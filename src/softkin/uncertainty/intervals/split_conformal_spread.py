@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from softkin.core.samples import Array
 from softkin.uncertainty.calibration_data import SpreadCalibration
-from softkin.uncertainty.conformal import conformal_rank, normalised_intervals
-from softkin.uncertainty.intervals.spec import MARGINAL, IntervalMethod
+from softkin.uncertainty.conformal import TINY, conformal_rank, normalised_intervals, normalised_sides
+from softkin.uncertainty.intervals.spec import MARGINAL, IntervalMethod, Scaled
 
 #: Added to every spread, as a share of its mean over `train`: the trees of a forest may agree by chance.
 LEAST_SHARE = 0.1
@@ -23,6 +23,15 @@ def intervals(data: SpreadCalibration, confidence_levels: Sequence[float]) -> Ar
     return normalised_intervals(data, confidence_levels, data.calibration_spread + least, data.new_spread + least)
 
 
+def scaled(data: SpreadCalibration) -> Scaled:
+    """The same in plain numbers."""
+    least = LEAST_SHARE * data.train_spread.mean(axis=0)
+    return Scaled(
+        lambda confidence_levels: normalised_sides(data, data.calibration_spread + least, confidence_levels),
+        {"kind": "spread", "least": least, "floor": TINY},
+    )
+
+
 METHOD = IntervalMethod(
     "scp_spread",
     "SCP, by spread",
@@ -30,4 +39,5 @@ METHOD = IntervalMethod(
     guarantee=MARGINAL,
     intervals=intervals,
     rank=conformal_rank,
+    scaled=scaled,
 )

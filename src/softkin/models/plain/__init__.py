@@ -1,0 +1,1 @@
+"""Fitted regressors as plain numbers: what an exported model and a single command are answered from."""

@@ -1,0 +1,164 @@
+"""Calibrated models in plain numbers, evaluated by numpy alone. Exported Python files hold a copy of this text."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from softkin.models.plain.evaluate import regressor
+from softkin.models.plain.kernels import Node, Solver, Values
+from softkin.models.plain.spaces import space
+
+Mask = np.ndarray[Any, np.dtype[np.bool_]]
+#: Distances between commands that are held at a time.
+DISTANCES_AT_ONCE = 4_000_000
+
+
+class PlainRobot:
+    """Positions, spreads, what lies outside and bounds, from the numbers of `robot_numbers`.
+
+    Inputs are commands (n_rows, n_commands), or with what the robot remembers and the session beside them.
+    """
+
+    def __init__(self, numbers: Node, solver: Solver | None = None) -> None:
+        self.numbers, self.memory, self.growths = numbers, numbers["memory"], numbers["growths"]
+        self.members = [(one, regressor(one["regressor"], solver), space(one["space"])) for one in numbers["members"]]
+        self.surroundings, self.difficulty = numbers["surroundings"], numbers["difficulty"]
+        self.points = self.surroundings["points"].T.copy()
+        if self.difficulty["kind"] == "distance":
+            self.neighbours = self.difficulty["points"].T.copy()
+
+    def placed(self, inputs: Values) -> tuple[Values, Values | None]:
+        """Positions (n_rows, n_coordinates) in mm, and spreads in mm where the bounds need them: then there is one
+        member.
+        """
+        parts = []
+        for node, one, of_one in self.members:
+            targets, spread = one(self._features(inputs, node))
+            parts.append(of_one.positions(targets))
+        shares = self.numbers["shares"]
+        positions = parts[0] if len(parts) == 1 else np.tensordot(shares, np.stack(parts), 1)
+        if self.memory is not None:
+            positions = positions + self._zeros(inputs)
+        return positions + self.numbers["zero"], None if spread is None else of_one.spread(targets, spread)
+
+    def outside(self, commands: Values, norms: Values) -> Mask:
+        """Which commands (n_rows, n_commands) lie in extrapolation, (n_rows,)."""
+        places = self.surroundings
+        step = max(1, DISTANCES_AT_ONCE // self.points.size)
+        far = [
+            np.sqrt(_squares(self.points, (part - places["mean"]) / places["scale"]).min(axis=1)) > places["gap"]
+            for part in (commands[start : start + step] for start in range(0, len(commands), step))
+        ]
+        return np.asarray(np.concatenate(far) | (norms > places["radius"]))
+
+    def norms(self, commands: Values) -> Values:
+        """Command norms (n_rows,)."""
+        places = self.surroundings
+        parts = (commands[:, places["varies"]] - places["centre"]) / places["norm_scale"]
+        return np.asarray(np.sqrt((parts * parts).sum(axis=1)))
+
+    def in_domain(self, inputs: Values, predicted: Values, spread: Values | None, table: Node) -> Values:
+        """Bounds (n_levels, n_rows, n_coordinates, 2) in mm around positions `predicted`, as of commands in-domain; a
+        `table` has the numbers of some levels.
+        """
+        sides, difficulty = table["sides"][:, None], self._difficulties(inputs, spread)
+        if difficulty is not None:
+            sides = sides * difficulty[..., None]
+        if table["zero"] is not None:
+            unseen = np.isin(self._sessions(inputs), self.memory["sessions"], invert=True)
+            zero = table["zero"][:, None] * unseen[:, None]
+            sides = np.sign(sides) * np.hypot(sides, zero[..., None])
+        return np.asarray(predicted[..., None] + sides)
+
+    def everywhere(self, bounds: Values, predicted: Values, outside: Mask, norms: Values, table: Node) -> Values:
+        """In-domain `bounds`, in which those of commands that lie outside are other ones, where there are shells."""
+        if self.growths is None or not outside.any():
+            return bounds
+        middle, widest = predicted[outside], self._widest(norms[outside], table)
+        lower, upper = middle - widest, middle + widest
+        if self.numbers["has_spread"]:
+            lower = np.minimum(bounds[..., 0][:, outside], lower)
+            upper = np.maximum(bounds[..., 1][:, outside], upper)
+        bounds[:, outside] = np.stack([lower, upper], axis=-1)
+        return bounds
+
+    def from_rest(self, commands: Values) -> Values:
+        """Inputs (n_rows, n_inputs) of commands that are each sent to a robot at rest, in a session never seen."""
+        if self.memory is None:
+            return commands
+        rest, halves = self.memory["rest"], self.memory["halves"][None]
+        plays = np.minimum(np.maximum(rest, commands[:, None] - halves), commands[:, None] + halves)
+        parts = [commands, np.tile(rest, (len(commands), 1)), plays.reshape(len(commands), -1)]
+        return np.hstack([*parts, np.zeros((len(commands), 1))])
+
+    def after(self, command: Values, plays: Values) -> Values:
+        """Where the play operators (n_widths, n_commands) stand after a command (n_commands,)."""
+        halves = self.memory["halves"]
+        return np.asarray(np.minimum(np.maximum(plays, command - halves), command + halves))
+
+    def _features(self, inputs: Values, member: Node) -> Values:
+        if self.memory is None:
+            return inputs
+        n, inputs = self.numbers["n_commands"], self._whole(inputs)
+        commands, parts = inputs[:, :n], [inputs[:, :n]]
+        if member["has_step"]:
+            parts.append(commands - inputs[:, n : 2 * n])
+        if len(member["widths"]):
+            plays = inputs[:, 2 * n : -1].reshape(len(inputs), -1, n)[:, member["widths"]]
+            parts.append((commands[:, None] - plays).reshape(len(inputs), -1))
+        return np.hstack(parts)
+
+    def _whole(self, inputs: Values) -> Values:
+        return self.from_rest(inputs) if inputs.shape[1] == self.numbers["n_commands"] else inputs
+
+    def _sessions(self, inputs: Values) -> Values:
+        return self._whole(inputs)[:, -1]
+
+    def _zeros(self, inputs: Values) -> Values:
+        """Zeros (n_rows, n_coordinates) in mm of the sessions; 0 of one never seen."""
+        sessions, zeros, asked = self.memory["sessions"], self.memory["zeros"], self._sessions(inputs)
+        places = np.searchsorted(sessions, asked).clip(max=len(sessions) - 1)
+        return np.where((sessions[places] == asked)[:, None], zeros[places], 0.0)
+
+    def _difficulties(self, inputs: Values, spread: Values | None) -> Values | None:
+        """What the sides of each row are multiplied by, (n_rows, n_coordinates) or (n_rows, 1); None: by 1."""
+        node = self.difficulty
+        if node["kind"] == "spread":
+            return np.asarray(np.maximum(spread + node["least"], node["floor"]))
+        if node["kind"] == "distance":
+            return self._distances(inputs[:, : self.numbers["n_commands"]])
+        return None
+
+    def _distances(self, commands: Values) -> Values:
+        """Mean distance to the nearest commands of `train`; beyond its box the distance to the box is added."""
+        node, step = self.difficulty, max(1, DISTANCES_AT_ONCE // self.neighbours.size)
+        found = []
+        for start in range(0, len(commands), step):
+            rows = (commands[start : start + step] - node["mean"]) / node["scale"]
+            squares = np.partition(_squares(self.neighbours, rows), node["neighbours"] - 1, axis=1)
+            near = np.sqrt(squares[:, : node["neighbours"]]).mean(axis=1)
+            apart = rows - np.clip(rows, node["low"], node["high"])
+            beyond = np.sqrt((apart * apart).sum(axis=1))
+            near = np.where(beyond > 0, node["emptiest"] + beyond, np.minimum(near, node["emptiest"]))
+            found.append(np.maximum(node["least"] + near / node["unit"], node["floor"]))
+        return np.concatenate(found)[:, None]
+
+    def _widest(self, norms: Values, table: Node) -> Values:
+        """Half-widths (n_levels, n_rows, n_coordinates) in mm in extrapolation."""
+        x = np.log(np.maximum(norms / self.surroundings["radius"], 1.0))[:, None]
+        widest = table["limits"][:, None]
+        for growth, limits in zip(self.growths, table["growth_limits"], strict=True):
+            near = np.minimum(x, growth["reach"])
+            beyond = (x - near) * (growth["slope"] + 2 * growth["bend"] * growth["reach"])
+            grown = np.exp(growth["floor"] + (near * growth["slope"] + near**2 * growth["bend"] + beyond))
+            widest = np.maximum(widest, limits[:, None] * grown)
+        return np.broadcast_to(widest, (len(widest), len(x), widest.shape[2]))
+
+
+def _squares(points: Values, rows: Values) -> Values:
+    """Squared distances (n_rows, n_points) of rows (n_rows, n_commands) to points (n_commands, n_points)."""
+    apart = points - rows[:, :, None]
+    apart *= apart
+    return np.asarray(apart.sum(axis=1))
