@@ -40,6 +40,13 @@ class Form(StrEnum):
     JSON = "json"
 
 
+class Export(StrEnum):
+    """What a model is written as."""
+
+    PYTHON = "python"
+    C = "c"
+
+
 Model = Annotated[Path, typer.Argument(help="calibrated_model.joblib of a finished run")]
 Sha256 = Annotated[str | None, typer.Option(help="hash that the model's file must have, if it was taken elsewhere")]
 Trust = Annotated[bool, typer.Option("--trust", help="load a model that has no record and no hash: it runs its code")]
@@ -136,6 +143,27 @@ def check(
     found = check_recording(robot, rows, positions, rate)
     print(json.dumps(asdict(found)) if as_json else "\n".join(found.sentences()))
     return 0 if found.alarm_pose is None else 3
+
+
+@app.command(epilog="Example: softkin export results/finger/calibrated_model.joblib --to robot --level 0.9")
+@explained
+def export(
+    model: Model,
+    to: Annotated[Path, typer.Option(help="folder that the files go to")] = Path(),
+    form: Annotated[list[Export] | None, typer.Option(help="python, c; both where left out")] = None,
+    level: Annotated[list[float] | None, typer.Option(help="levels to store; 0.8, 0.9 and 0.95 where left out")] = None,
+    name: Annotated[str | None, typer.Option(help="of the files and of what they define; default: the robot's")] = None,
+    sha256: Sha256 = None,
+    trust: Trust = False,
+    as_json: AsJson = False,
+) -> None:
+    """A Python file that needs numpy alone and a C header: position, interval and `outside`, as the model says."""
+    from softkin.cli.export_model import written
+    from softkin.uncertainty.loading import load
+
+    robot = load(model, sha256=sha256, trust=trust)
+    files = written(robot, to, [str(one) for one in form or Export], level, name)
+    print(json.dumps([str(path) for path in files]) if as_json else "\n".join(map(str, files)))
 
 
 @app.command(epilog="Example: softkin doctor --json")

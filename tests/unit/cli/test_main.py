@@ -49,6 +49,14 @@ def test_predictions_in_each_form(folder: Path) -> None:
         assert written[5]["outside"] is False
 
 
+def test_a_model_is_exported_in_each_form(folder: Path) -> None:
+    done = asked("export", "model.joblib", "--trust", "--to", "out", "--level", "0.9")
+    assert (done.exit_code, done.stdout.split()) == (0, ["out/arm.py", "out/arm.h"])
+    assert (folder / "out" / "arm.h").is_file()
+    done = asked("export", "model.joblib", "--trust", "--form", "c", "--name", "left", "--json")
+    assert json.loads(done.stdout) == ["left.h"]
+
+
 @pytest.mark.parametrize(("recording", "code"), [("well.csv", 0), ("moved.csv", 3)])
 def test_the_exit_code_says_whether_the_robot_is_where_it_should_be(folder: Path, recording: str, code: int) -> None:
     del folder
@@ -68,6 +76,8 @@ def test_the_exit_code_says_whether_the_robot_is_where_it_should_be(folder: Path
         (["predict", "none.joblib", "commands.csv"], "no such file"),
         (["check", "model.joblib", "commands.csv", "--trust"], "missing 'tip x'"),
         (["check", "model.joblib", "well.csv", "--trust", "--rate", "2"], "no rate of false alarms"),
+        (["export", "model.joblib", "--trust", "--level", "90"], "write it as 0.9"),
+        (["export", "none.joblib"], "no such file"),
         (["doctor"], "run it in the folder of softkin"),
     ],
 )
@@ -94,6 +104,7 @@ def test_help_has_examples_and_exit_codes_and_loads_no_numerical_library() -> No
         "new-robot",
         "predict",
         "check",
+        "export",
         "ui",
         "campaign",
         "verify",

@@ -12,6 +12,8 @@ from softkin.core.samples import CONSTANT_RANGE_MM, Array
 
 #: Largest bending (rad) that is told apart: near 2 pi an arc ends where it begins, and its direction is lost.
 MAX_BENDING = 1.95 * np.pi
+#: Below it (rad) a series is used: its first term that is left out is below 1e-14.
+SMALL_ANGLE = 0.3
 
 
 def to_arcs(points: Array) -> Array:
@@ -45,13 +47,17 @@ def spread_of_points(arcs: Array, spread: Array, axes: Array) -> Array:
     """Standard deviation of points (n_rows, n_markers, 3) along `axes` (3, 3), to first order, from that of their arcs'
     coordinates, which are taken to be independent.
     """
-    squares = np.zeros_like(arcs)
-    for axis in range(3):
-        step = np.zeros_like(arcs)
-        step[..., axis] = np.maximum(1e-6, 1e-6 * np.abs(arcs[..., axis]))
-        slope = (from_arcs(arcs + step) - from_arcs(arcs - step)) / (2 * step[..., axis : axis + 1])
-        squares += np.square((slope * spread[..., axis : axis + 1]) @ axes)
-    return np.sqrt(squares)
+    b_x, b_y, length = np.moveaxis(arcs, -1, 0)
+    bending = np.hypot(b_x, b_y)
+    half, whole = _sinc(bending / 2), _sinc(bending)
+    sideways, narrower = length / 2 * np.square(half), length / 4 * half * _sinc_slope(bending / 2)
+    lower = length * _sinc_slope(bending)
+    along_x = np.stack([sideways + narrower * b_x * b_x, narrower * b_x * b_y, lower * b_x], axis=-1)
+    along_y = np.stack([narrower * b_x * b_y, sideways + narrower * b_y * b_y, lower * b_y], axis=-1)
+    along = np.stack([np.square(half) / 2 * b_x, np.square(half) / 2 * b_y, whole], axis=-1)
+    slopes = (along_x, along_y, along)
+    moved = [np.square((slope * spread[..., axis : axis + 1]) @ axes) for axis, slope in enumerate(slopes)]
+    return np.asarray(np.sqrt(moved[0] + moved[1] + moved[2]))
 
 
 def has_arc(points: Array) -> Array:
@@ -66,3 +72,11 @@ def has_arc(points: Array) -> Array:
 def _sinc(angle: Array) -> Array:
     """sin(angle) / angle."""
     return np.asarray(np.sinc(angle / np.pi))
+
+
+def _sinc_slope(angle: Array) -> Array:
+    """The derivative of sin(angle) / angle, divided by the angle: its series where the difference would cancel."""
+    square = np.square(angle)
+    near = -1 / 3 + square * (1 / 30 - square * (1 / 840 - square * (1 / 45360 - square / 3991680)))
+    direct = (np.cos(angle) - _sinc(angle)) / np.where(square > 0, square, 1.0)
+    return np.where(square < SMALL_ANGLE**2, near, direct)

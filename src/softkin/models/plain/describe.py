@@ -47,7 +47,7 @@ def of_pipeline(estimators: Sequence[Any], known: Samples | None) -> Node:
         powers = first.features_.powers_
     else:
         powers = np.vstack([power * np.eye(n_features, dtype=int) for power in range(1, first.terms_.degree + 1)])
-    node["factors"] = _factors(powers)
+    node |= {"factors": _factors(powers), "n_features": n_features}
     for scaler in scalers:
         node |= {"mean": scaler.mean_, "scale": scaler.scale_}
     return node
@@ -60,6 +60,7 @@ def of_linear(estimators: Sequence[Any], known: Samples | None) -> Node:
     n_features = len(weights)
     return {
         "kind": "polynomial",
+        "n_features": n_features,
         "factors": _factors(np.eye(n_features, dtype=int)),
         "mean": np.zeros(n_features),
         "scale": np.ones(n_features),

@@ -16,14 +16,19 @@ BLOCK = 128
 
 
 def blockwise(lower: Values) -> Callable[[Values], Values]:
-    """Forward substitution in blocks, whose triangles are inverted beforehand."""
+    """Forward substitution in blocks, whose triangles are inverted beforehand; each solution is refined once."""
     places = [slice(start, start + BLOCK) for start in range(0, len(lower), BLOCK)]
-    blocks = [(place, np.linalg.inv(lower[place, place]), lower[place, : place.start].copy()) for place in places]
+    blocks = [
+        (place, lower[place, place], np.linalg.inv(lower[place, place]), lower[place, : place.start].copy())
+        for place in places
+    ]
 
     def solved(right: Values) -> Values:
         result = right.copy()
-        for place, inverse, before in blocks:
-            result[place] = inverse @ (result[place] - before @ result[: place.start])
+        for place, triangle, inverse, before in blocks:
+            wanted = result[place] - before @ result[: place.start]
+            found = inverse @ wanted
+            result[place] = found + inverse @ (wanted - triangle @ found)
         return result
 
     return solved

@@ -48,7 +48,8 @@ class PlainRobot:
         places = self.surroundings
         step = max(1, DISTANCES_AT_ONCE // self.points.size)
         far = [
-            np.sqrt(_squares(self.points, (part - places["mean"]) / places["scale"]).min(axis=1)) > places["gap"]
+            np.sqrt(_squared_distances(self.points, (part - places["mean"]) / places["scale"]).min(axis=1))
+            > places["gap"]
             for part in (commands[start : start + step] for start in range(0, len(commands), step))
         ]
         return np.asarray(np.concatenate(far) | (norms > places["radius"]))
@@ -137,7 +138,7 @@ class PlainRobot:
         found = []
         for start in range(0, len(commands), step):
             rows = (commands[start : start + step] - node["mean"]) / node["scale"]
-            squares = np.partition(_squares(self.neighbours, rows), node["neighbours"] - 1, axis=1)
+            squares = np.partition(_squared_distances(self.neighbours, rows), node["neighbours"] - 1, axis=1)
             near = np.sqrt(squares[:, : node["neighbours"]]).mean(axis=1)
             apart = rows - np.clip(rows, node["low"], node["high"])
             beyond = np.sqrt((apart * apart).sum(axis=1))
@@ -157,7 +158,7 @@ class PlainRobot:
         return np.broadcast_to(widest, (len(widest), len(x), widest.shape[2]))
 
 
-def _squares(points: Values, rows: Values) -> Values:
+def _squared_distances(points: Values, rows: Values) -> Values:
     """Squared distances (n_rows, n_points) of rows (n_rows, n_commands) to points (n_commands, n_points)."""
     apart = points - rows[:, :, None]
     apart *= apart

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -58,3 +59,13 @@ def test_the_spread_of_points_is_that_of_a_cloud_of_arcs() -> None:
         cloud = from_arcs(q + spread * rng.standard_normal((200_000, 1, 3)))[:, 0]
         turned = np.linalg.qr(rng.standard_normal((3, 3)))[0]
         np.testing.assert_allclose(spread_of_points(q, spread, turned)[0, 0], (cloud @ turned).std(axis=0), rtol=0.02)
+
+
+@pytest.mark.parametrize("bending", [0.0, 1e-7, 0.1, 0.2999, 0.3001, 0.6, 2.0, 5.0])
+def test_spreads_follow_the_slopes_of_finite_differences(bending: float) -> None:
+    arc = np.array([[[0.6 * bending, -0.8 * bending, 80.0]]])
+    for axis in range(3):
+        step, spread = np.zeros((1, 1, 3)), np.zeros((1, 1, 3))
+        step[..., axis], spread[..., axis] = 1e-5, 0.1
+        slope = (from_arcs(arc + step) - from_arcs(arc - step)) / 2e-5
+        np.testing.assert_allclose(spread_of_points(arc, spread, np.eye(3)), np.abs(slope) * 0.1, atol=1e-8)

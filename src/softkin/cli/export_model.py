@@ -1,0 +1,42 @@
+"""Write a calibrated model for other machines, in the forms that are asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from softkin.core.files import write_text
+from softkin.uncertainty.calibrated_model import CalibratedModel
+from softkin.uncertainty.export.c_header import c_header
+from softkin.uncertainty.export.c_text import identifier
+from softkin.uncertainty.export.numbers import LEVELS
+from softkin.uncertainty.export.python_file import python_file
+
+#: Form -> ending of its file, and what writes its text of a model, its levels and the name of what it defines.
+FORMS: dict[str, tuple[str, Callable[[CalibratedModel, Sequence[float], str], str]]] = {
+    "python": (".py", lambda robot, levels, name: python_file(robot, levels, name=name)),
+    "c": (".h", lambda robot, levels, name: c_header(robot, levels, name=name)),
+}
+
+
+def written(
+    robot: CalibratedModel, folder: Path, forms: Sequence[str], levels: Sequence[float] | None, name: str | None
+) -> list[Path]:
+    """The files that a model was written to.
+
+    Parameters:
+        robot: the calibrated model.
+        folder: that they go to; it is made where it is missing.
+        forms: keys of `FORMS`.
+        levels: confidence levels that intervals are stored at; None: `LEVELS`.
+        name: of the files and of what they define; None: that of the robot.
+
+    Raises:
+        ConfigError: a part of the model cannot be written, or a level is none; nothing is written then.
+    """
+    plain = identifier(name or robot.dataset)
+    texts = {FORMS[form][0]: FORMS[form][1](robot, levels or LEVELS, plain) for form in forms}
+    files = [folder / f"{plain}{ending}" for ending in texts]
+    for path, text in zip(files, texts.values(), strict=True):
+        write_text(path, text)
+    return files

@@ -1,0 +1,84 @@
+"""A calibrated model as one Python file that needs numpy alone: its numbers, and the text of what evaluates them."""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import json
+from collections.abc import Callable, Sequence
+from types import ModuleType
+from typing import Any
+
+from softkin import __version__
+from softkin.core.geometry import constant_curvature
+from softkin.models.plain import evaluate, kernels, spaces
+from softkin.uncertainty.export import face
+from softkin.uncertainty.export.numbers import LEVELS, exported_numbers
+from softkin.uncertainty.plain import robot as plain_robot
+
+#: Numbers at most of a Python file, 300 MB.
+MOST_NUMBERS = 30_000_000
+FUNCTIONS: tuple[Callable[..., Any], ...] = (
+    constant_curvature.from_arcs,
+    constant_curvature.spread_of_points,
+    constant_curvature._sinc,
+    constant_curvature._sinc_slope,
+)
+MODULES: tuple[ModuleType, ...] = (kernels, evaluate, spaces, plain_robot, face)
+HEAD = '''"""{dataset}: {model}; written by softkin {version}. It needs numpy alone.
+
+    from {name} import model
+    model.predict(commands)           # positions in mm, a row per command: columns {commands}
+    model.intervals(commands, 0.9)    # lower and upper bounds in mm, at the levels {levels}
+    model.is_outside(commands)        # where nothing is promised
+    loop = model.start()              # a control loop: position, lower, upper = loop.step(command)
+
+Coordinates: {coordinates}.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+import zlib
+from collections.abc import Callable, Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+
+SMALL_ANGLE = {small_angle}
+
+'''
+
+
+def python_file(robot: Any, confidence_levels: Sequence[float] = LEVELS, *, name: str) -> str:
+    """The text of the file; `name` is that of the module, by which it is imported.
+
+    Raises:
+        ConfigError: as of `exported_numbers`.
+    """
+    numbers = exported_numbers(robot, confidence_levels, most=MOST_NUMBERS)
+    shown = {key: ", ".join(map(str, numbers[key])) for key in ("commands", "levels", "coordinates")}
+    head = HEAD.format(
+        dataset=_plain(robot.dataset),
+        model=numbers["model"],
+        version=__version__,
+        small_angle=constant_curvature.SMALL_ANGLE,
+        name=name,
+        **{key: _plain(text) for key, text in shown.items()},
+    )
+    parts = [*(inspect.getsource(function) for function in FUNCTIONS), *map(_body, MODULES)]
+    text = json.dumps(face.encoded(numbers))
+    return head + "\n\n".join(parts) + f"\n\n\nNUMBERS = {text!r}\nmodel = read(NUMBERS)\n"
+
+
+def _body(module: ModuleType) -> str:
+    """The text of a module after its imports."""
+    text = inspect.getsource(module)
+    last = max(node.end_lineno or 0 for node in ast.parse(text).body if isinstance(node, (ast.Import, ast.ImportFrom)))
+    return "\n".join(text.splitlines()[last:]).strip() + "\n"
+
+
+def _plain(text: str) -> str:
+    """A text that ends no docstring."""
+    return text.encode("ascii", "replace").decode().replace("\\", "/").replace('"', "'")

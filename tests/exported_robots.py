@@ -1,0 +1,71 @@
+"""Small calibrated models of every kind that is exported."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache, partial
+
+import numpy as np
+
+from softkin.core.samples import Params
+from softkin.core.shells import command_norm
+from softkin.models import MODELS
+from softkin.training.kinematic_model import FitSettings, fitted_model
+from softkin.uncertainty.calibrated import FittedModel, calibrated
+from softkin.uncertainty.calibrated_model import CalibratedModel
+from softkin.uncertainty.calibration_data import Shell
+from softkin.uncertainty.intervals import INTERVAL_METHODS
+from tests.conftest import bending_arm
+from tests.contract import laws
+from tests.recorded_robot import recorded_arm
+
+TRAIN, VALIDATION = (bending_arm(n, n_markers=2, seed=n) for n in (50, 60))
+#: Inside and outside.
+NEW = bending_arm(80, seed=3, largest_command=1.7).commands
+BASE = {"origin": [0, 0, 0], "axis": [0, 0, 1]}
+METHODS = ("scp_mapie", "scp_distance", "cps", "scp_crepes")
+
+
+@cache
+def small(name: str) -> CalibratedModel:
+    """A robot of this point model; the target space, the method and whether there are shells take turns."""
+    spec, place = MODELS[name], list(MODELS).index(name)
+    params: Params = laws.first_params(spec)[-1]
+    params = {key: min(value, 6) if key in ("n_estimators", "max_iter") else value for key, value in params.items()}
+    space = ("cartesian", "curvature")[place % 2]
+    settings = FitSettings(params, True, 0, 1, target_space=space, base=BASE)
+    model = FittedModel(name, spec, "tuned", fitted_model(spec, settings, TRAIN), TRAIN)
+    norm, shells = command_norm(TRAIN.commands, standardised=place % 4 == 0).of, []
+    core = norm(TRAIN.commands) <= np.quantile(norm(TRAIN.commands), 0.6)
+    outer = TRAIN.take(~core)
+    errors = np.random.default_rng(0).normal(size=outer.positions.shape) * norm(outer.commands)[:, None] ** 2
+    shells.append(Shell(TRAIN.commands[core], outer.commands, outer.positions + errors, outer.positions))
+    method = "scp_spread" if spec.spread is not None else METHODS[place % len(METHODS)]
+    has_shells = place % 3 < 2
+    return calibrated(
+        model, INTERVAL_METHODS[method], VALIDATION, shells if has_shells else (), norm if has_shells else None
+    )
+
+
+@cache
+def remembering(memory: str = "play") -> CalibratedModel:
+    """A polynomial of a robot recorded in three sessions."""
+    rows = recorded_arm(240, backlash=0.05, zeros_mm=(0.0, 2.0, -2.0))
+    fitted, held_out = rows.take(np.arange(240) % 4 > 0), rows.take(np.arange(240) % 4 == 0)
+    told = {"memory": memory, "widths": "fine", "zeros": True}
+    settings = FitSettings({"degree": 2, "alpha": 1e-3}, True, 0, 1, memory=told)
+    model = FittedModel("remembers", MODELS["ridge"], "tuned", fitted_model(MODELS["ridge"], settings, fitted), fitted)
+    return calibrated(model, INTERVAL_METHODS["scp_crepes"], held_out)
+
+
+@cache
+def recalibrated() -> CalibratedModel:
+    """The same in a new session."""
+    commands = 0.5 * NEW[:6]
+    positions = np.asarray(remembering().follow(commands)) + 1.0
+    return replace(remembering().recalibrate(commands, positions))
+
+
+ROBOTS: dict[str, Callable[[], CalibratedModel]] = {name: partial(small, name) for name in MODELS}
+ROBOTS |= {"remembers": remembering, "previous": lambda: remembering("previous"), "recalibrated": recalibrated}

@@ -1,0 +1,22 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from softkin.cli.export_model import FORMS, written
+from softkin.core.errors import ConfigError
+from tests.exported_robots import small
+
+
+def test_a_file_for_each_form(tmp_path: Path) -> None:
+    files = written(small("ridge"), tmp_path / "robot", list(FORMS), [0.9], "my arm")
+    assert [path.name for path in files] == ["my_arm.py", "my_arm.h"]
+    assert "from my_arm import model" in files[0].read_text()
+    assert "static const double my_arm_levels[1] = {0.9};" in files[1].read_text()
+
+
+def test_nothing_is_written_where_something_cannot_be(tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match="write it as"):
+        written(small("ridge"), tmp_path, ["python"], [90], None)
+    assert not list(tmp_path.iterdir())
