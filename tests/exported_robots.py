@@ -11,6 +11,7 @@ import numpy as np
 from softkin.core.samples import Params
 from softkin.core.shells import command_norm
 from softkin.models import MODELS
+from softkin.models.estimators.weighted_mean import weighted_mean
 from softkin.training.kinematic_model import FitSettings, fitted_model
 from softkin.uncertainty.calibrated import FittedModel, calibrated
 from softkin.uncertainty.calibrated_model import CalibratedModel
@@ -60,6 +61,14 @@ def remembering(memory: str = "play") -> CalibratedModel:
 
 
 @cache
+def mean_of(*names: str) -> CalibratedModel:
+    """The weighted mean of robots, with the intervals of the first."""
+    robots = [ROBOTS[name]() for name in names]
+    weights = np.arange(1.0, len(names) + 1)
+    return replace(robots[0], estimator=weighted_mean([one.estimator for one in robots], weights / weights.sum()))
+
+
+@cache
 def recalibrated() -> CalibratedModel:
     """The same in a new session."""
     commands = 0.5 * NEW[:6]
@@ -69,3 +78,4 @@ def recalibrated() -> CalibratedModel:
 
 ROBOTS: dict[str, Callable[[], CalibratedModel]] = {name: partial(small, name) for name in MODELS}
 ROBOTS |= {"remembers": remembering, "previous": lambda: remembering("previous"), "recalibrated": recalibrated}
+ROBOTS |= {"mean": partial(mean_of, "lr", "huber"), "mean in sessions": partial(mean_of, "remembers", "previous")}

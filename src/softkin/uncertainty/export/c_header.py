@@ -11,7 +11,14 @@ import numpy as np
 from softkin import __version__
 from softkin.models.plain.kernels import Node
 from softkin.uncertainty.export.c_nodes import c_function, n_targets
-from softkin.uncertainty.export.c_robot import bounds_text, inputs_text, outside_text, space_function
+from softkin.uncertainty.export.c_robot import (
+    bounds_text,
+    features_function,
+    inputs_text,
+    n_features,
+    outside_text,
+    space_function,
+)
 from softkin.uncertainty.export.c_text import Tables, identifier, number
 from softkin.uncertainty.export.numbers import LEVELS, exported_numbers
 
@@ -120,15 +127,14 @@ def _head(numbers: Node) -> str:
 def _at(numbers: Node, tables: Tables, n_coordinates: int) -> str:
     """The function that answers inputs at a level."""
     members = [
-        _member(member, share, tables, n_coordinates)
+        _member(member, share, tables, numbers)
         for share, member in zip(numbers["shares"], numbers["members"], strict=True)
     ]
     zero = tables.name(np.asarray(numbers["zero"], dtype=np.float64))
     return "\n".join(
         [
             "static inline void @p_at(const double *inputs, int level, @p_answer *answer) {",
-            f"    double features[{n_features(numbers)}], spread[{n_coordinates}], norm, sides[{n_coordinates}][2];",
-            "    @p_features(inputs, features);",
+            f"    double spread[{n_coordinates}], norm, sides[{n_coordinates}][2];",
             f"    for (int i = 0; i < {n_coordinates}; i++) answer->position[i] = spread[i] = 0.0;",
             *members,
             f"    for (int i = 0; i < {n_coordinates}; i++) answer->position[i] += @p_zero(inputs, i) + {zero}[i];",
@@ -139,20 +145,17 @@ def _at(numbers: Node, tables: Tables, n_coordinates: int) -> str:
     )
 
 
-def _member(member: Node, share: float, tables: Tables, n_coordinates: int) -> str:
+def _member(member: Node, share: float, tables: Tables, numbers: Node) -> str:
     """Lines that add what one member says to the position."""
+    n_commands, n_coordinates = numbers["n_commands"], len(numbers["coordinates"])
     n, function = n_targets(member["regressor"]), c_function(member["regressor"], tables)
+    told = features_function(member, tables, n_commands)
     space = space_function(member["space"], tables, n_coordinates)
     return f"""    {{
-        double y[{n}], s[{n}], place[{n_coordinates}];
+        double y[{n}], s[{n}], place[{n_coordinates}], features[{n_features(member, n_commands)}];
+        {told}(inputs, features);
         for (int i = 0; i < {n}; i++) s[i] = 0.0;
         {function}(features, y, s);
         {space}(y, s, place, spread);
         for (int i = 0; i < {n_coordinates}; i++) answer->position[i] += {number(share)} * place[i];
     }}"""
-
-
-def n_features(numbers: Node) -> int:
-    """Features that the regressor is given."""
-    memory, n = numbers["memory"], numbers["n_commands"]
-    return int(n if memory is None else n * (1 + int(memory["has_step"]) + len(memory["widths"])))

@@ -53,7 +53,7 @@ SPACE_WRITERS: dict[str, Callable[[Node, Tables, int], str]] = {"scaled": _scale
 
 
 def inputs_text(numbers: Node, tables: Tables, n_inputs: int) -> str:
-    """Functions for what a robot remembers: at rest, after a command, the features of inputs, the zero of a session."""
+    """Functions for what a robot remembers: at rest, after a command, the zero of a session."""
     n, memory = numbers["n_commands"], numbers["memory"]
     if memory is None:
         return (
@@ -61,20 +61,11 @@ def inputs_text(numbers: Node, tables: Tables, n_inputs: int) -> str:
             f"    for (int i = 0; i < {n}; i++) inputs[i] = 0.0;\n    return session == 0;\n}}\n"
             "static inline void @p_send(double *inputs, const double *command) {\n"
             f"    for (int i = 0; i < {n}; i++) inputs[i] = command[i];\n}}\n"
-            "static inline void @p_features(const double *inputs, double *features) {\n"
-            f"    for (int i = 0; i < {n}; i++) features[i] = inputs[i];\n}}\n"
             "static inline double @p_zero(const double *inputs, int coordinate) {\n"
             "    (void)inputs;\n    (void)coordinate;\n    return 0.0;\n}"
         )
     rest, halves, sessions, zeros = (tables.name(memory[name]) for name in ("rest", "halves", "sessions", "zeros"))
     n_widths, (n_sessions, n_coordinates) = len(memory["halves"]), memory["zeros"].shape
-    parts = [f"    for (int i = 0; i < {n}; i++) features[i] = inputs[i];"]
-    if memory["has_step"]:
-        parts.append(f"    for (int i = 0; i < {n}; i++) features[{n} + i] = inputs[i] - inputs[{n} + i];")
-    for place, width in enumerate(memory["widths"]):
-        start, play = n * (2 + place), n * (2 + int(width))
-        parts.append(f"    for (int i = 0; i < {n}; i++) features[{start} + i] = inputs[i] - inputs[{play} + i];")
-    body = "\n".join(parts)
     return f"""/* Inputs: the command, the one before, {n_widths} play operators, the session. */
 static inline int @p_session(double session) {{
     for (int i = 0; i < {n_sessions}; i++)
@@ -97,13 +88,26 @@ static inline void @p_send(double *inputs, const double *command) {{
         *play = *play < low ? low : *play > high ? high : *play;
     }}
 }}
-static inline void @p_features(const double *inputs, double *features) {{
-{body}
-}}
 static inline double @p_zero(const double *inputs, int coordinate) {{
     int place = @p_session(inputs[{n_inputs - 1}]);
     return place < 0 ? 0.0 : {zeros}[place * {n_coordinates} + coordinate];
 }}"""
+
+
+def n_features(member: Node, n_commands: int) -> int:
+    """Features that the regressor of a member is given."""
+    return int(n_commands * (1 + int(member["has_step"]) + len(member["widths"])))
+
+
+def features_function(member: Node, tables: Tables, n: int) -> str:
+    """The name of the function from inputs to the features of a member, of `n` commands."""
+    starts = [n] * member["has_step"] + [n * (2 + int(width)) for width in member["widths"]]
+    lines = [f"for (int i = 0; i < {n}; i++) features[i] = inputs[i];"]
+    for place, start in enumerate(starts):
+        own = n * (1 + place)
+        lines.append(f"for (int i = 0; i < {n}; i++) features[{own} + i] = inputs[i] - inputs[{start} + i];")
+    arguments = "const double *inputs, double *features"
+    return tables.function(arguments, "\n".join(lines), what="What the regressor is given.")
 
 
 def outside_text(numbers: Node, tables: Tables) -> str:
