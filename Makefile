@@ -29,6 +29,7 @@ endif
 .PHONY: gallery numbers results-page single-rows
 .PHONY: snakemake-report campaigns campaign-slurm coverage standins timings benchmark benchmark-large benchmark-pruning benchmark-shells
 .PHONY: benchmark-figures benchmark-two-files benchmark-commands benchmark-many-robots benchmark-recalibration benchmark-choice benchmark-promises
+.PHONY: benchmark-latency latency-page
 .PHONY: environment clean ui-screenshot bad-inputs-page faults-page
 
 # These targets, each with the first sentence of the comment above it.
@@ -179,6 +180,14 @@ benchmark-recalibration: .venv/installed
 # Whether intervals keep what they promise on 200 simulated recordings that lag, have play, drift and shift.
 benchmark-promises: .venv/installed
 	$(BIN)/python -m benchmarks.promises
+# What an answer costs, of the models of a finished run, beside the bare estimator and the exports.
+benchmark-latency: .venv/installed
+	@$(BIN)/python -W ignore -m benchmarks.latency --environment $(wildcard results/*/calibrated_model.joblib)
+
+# docs/latency.md, from the same.
+latency-page: .venv/installed
+	$(BIN)/python -W ignore -m benchmarks.latency --environment $(wildcard results/*/calibrated_model.joblib) > results/latency.jsonl
+	$(BIN)/python -m tools.latency_page results/latency.jsonl
 
 # Whether the figures of a robot of 100,000 rows stay under 500 MB.
 benchmark-figures: .venv/installed

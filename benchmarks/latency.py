@@ -1,19 +1,31 @@
-"""How long one command takes with a 90 % interval, inside and outside, beside the bare estimator: median and p99.
+"""What an answer costs: one command with a 90 % interval, many, loading, memory; of a model and of its exports.
 
-    python -m benchmarks.latency results/finger/calibrated_model.joblib ...
+    python -m benchmarks.latency [results/finger/calibrated_model.joblib ...] [--environment]
 
-Without a file: a polynomial and a Gaussian process on a made-up arm of 1,000 rows of `train`, with shells. One command
-at a time, in process, on one thread (OMP_NUM_THREADS=1).
+Beside a polynomial and a Gaussian process on a made-up arm of 1,000 rows of `train`, with shells, the models that are
+given. One command at a time, in process, on one thread (OMP_NUM_THREADS=1), in CPU time. `bare` is the estimator's
+`predict` alone, `numpy` the same position written by hand. Exports are compared with the model on 10,000 commands,
+inside and outside; with --environment the Python file also runs in a new environment that holds numpy alone.
 """
 
 from __future__ import annotations
 
 import argparse
+import importlib.util
+import json
+import subprocess
+import sys
+import tempfile
 import time
+import venv
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
+from itertools import chain
+from pathlib import Path
+from typing import Any
 
+import joblib
 import numpy as np
 
 from softkin.core.samples import Array, Params, Samples
@@ -23,53 +35,207 @@ from softkin.training.kinematic_model import FitSettings, fitted_model
 from softkin.uncertainty.calibrated import FittedModel, calibrated
 from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.calibration_data import Shell
+from softkin.uncertainty.export.c_header import c_header
+from softkin.uncertainty.export.python_file import python_file
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from softkin.uncertainty.loading import load
+from tests.compiled_header import asked, compiled
 
-N_TRAIN, N_VALIDATION, N_CALLS, N_MANY, LEVEL = 1000, 300, 1000, 100_000, 0.9
+N_TRAIN, N_VALIDATION, N_CALLS, N_MANY, N_COMPARED, LEVEL = 1000, 300, 300, 100_000, 10_000, 0.9
+Rows = Iterator[dict[str, Any]]
+LOADED = """
+import json, sys, time
+{load}
+{ask}
+largest = next(line for line in open('/proc/self/status') if line.startswith('VmHWM'))
+print(json.dumps([1e3 * time.process_time(), int(largest.split()[1]) / 1024]))
+"""
 
 
 def main() -> None:
-    """Print a line for each model."""
+    """Print a line for each model and way to ask it, then how exports agree."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("models", nargs="*", help="calibrated_model.joblib")
-    asked = parser.parse_args()
-    robots = [load(path) for path in asked.models] or list(made_up())
-    print(f"{'robot, model, method':<42} {'what':<9} {'median ms':>10} {'p99 ms':>8} {'bare ms':>8} {'ratio':>6}")
-    for robot in robots:
-        title = f"{robot.dataset}, {robot.spec.name}, {robot.method.name}"
+    parser.add_argument("--rows", type=int, default=N_MANY, help="rows that are asked for at once")
+    parser.add_argument("--environment", action="store_true", help="run Python files where there is numpy alone")
+    arguments = parser.parse_args()
+    for robot in (*made_up(), *(load(path, trust=True) for path in arguments.models)):
+        for row in chain(latencies(robot, arguments.rows), agreement(robot, new_environment=arguments.environment)):
+            print(json.dumps(row), flush=True)
+
+
+def title(robot: CalibratedModel) -> str:
+    """Robot, model, method."""
+    return f"{robot.dataset}, {robot.spec.name}, {robot.method.name}"
+
+
+def latencies(robot: CalibratedModel, n_rows: int) -> Rows:
+    """A row for each way to ask and place: median and p99 in ms, of many rows in all; load time and memory."""
+    with tempfile.TemporaryDirectory() as folder:
+        there = Path(folder)
+        ways = {"model": robot, "Python file": exported(robot, there)}
+        joblib.dump(robot, there / "model.joblib")
+        joblib.dump(robot.estimator, there / "bare.joblib")
+        program = compiled(c_header(robot, [LEVEL], name="arm"), "arm", there, "-O2")
+        several = np.resize(robot.train.commands, (n_rows, robot.train.commands.shape[1]))
         for where, commands in places(robot).items():
-            bare = milliseconds(robot.estimator.predict, [row[None] for row in commands])
-            whole = milliseconds(partial(robot.intervals, confidence_levels=LEVEL), list(commands))
-            middle, late, plain = (
-                float(value) for value in (np.median(whole), np.quantile(whole, 0.99), np.median(bare))
+            calls: dict[str, Callable[[Array], object]] = {
+                "bare estimator": lambda row: robot.estimator.predict(row[None]),
+                "model": partial(robot.intervals, confidence_levels=LEVEL),
+                "Python file": partial(ways["Python file"].intervals, level=LEVEL),
+            }
+            if (hand := by_hand(robot)) is not None:
+                calls["numpy by hand"] = hand
+            if where == "streaming":
+                loop, state = ways["Python file"].start(level=LEVEL), robot.start(confidence_level=LEVEL)
+                calls = {"model": state.step, "Python file": loop.step}
+            for way, call in calls.items():
+                yield {"robot": title(robot), "way": way, "where": where} | quantiles(call, commands)
+            if where != "streaming":
+                yield {"robot": title(robot), "way": "C header", "where": where} | of_program(program, commands, robot)
+        bare, whole = (min(milliseconds(call, [several])) for call in (robot.estimator.predict, at_level(robot)))
+        yield {
+            "robot": title(robot),
+            "way": "model",
+            "where": "many rows",
+            "rows": n_rows,
+            "ms": whole,
+            "bare_ms": bare,
+        }
+        row = robot.train.commands[0].tolist()
+        asks = {
+            "bare estimator": (
+                "import joblib, numpy; m = joblib.load('bare.joblib')",
+                f"m.predict(numpy.array([{row}]))",
+            ),
+            "model": ("import softkin; m = softkin.load('model.joblib', trust=True)", f"m.intervals({row}, {LEVEL})"),
+            "Python file": ("sys.path.append('.')\nfrom arm_file import model", f"model.intervals({row}, {LEVEL})"),
+        }
+        for way, (of_load, ask) in asks.items():
+            done = subprocess.run(
+                [sys.executable, "-c", LOADED.format(load=of_load, ask=ask)], cwd=there, capture_output=True, check=True
             )
-            print(f"{title:<42} {where:<9} {middle:>10.3f} {late:>8.3f} {plain:>8.3f} {middle / plain:>6.2f}")
-        many = np.resize(robot.train.commands, (N_MANY, robot.train.commands.shape[1]))
-        plain, middle = (min(milliseconds(call, [many] * 3)) for call in (robot.estimator.predict, robot_at(robot)))
-        print(f"{title:<42} {'100,000':<9} {middle:>10.0f} {'':>8} {plain:>8.0f} {middle / plain:>6.2f}")
+            taken, megabytes = json.loads(done.stdout)
+            yield {"robot": title(robot), "way": way, "where": "load and answer", "ms": taken, "mb": megabytes}
+        for way, path in {"model": "model.joblib", "Python file": "arm_file.py", "C header": "arm"}.items():
+            yield {"robot": title(robot), "way": way, "where": "size", "kb": (there / path).stat().st_size / 1024}
 
 
-def robot_at(robot: CalibratedModel) -> Callable[[Array], object]:
+def agreement(robot: CalibratedModel, *, new_environment: bool) -> Rows:
+    """How far, at most, exports are from the model on `N_COMPARED` commands, in mm; and one row from many."""
+    low, high = robot.train.commands.min(axis=0), robot.train.commands.max(axis=0)
+    span = high - low
+    commands = np.random.default_rng(0).uniform(low - 0.2 * span, high + 0.2 * span, (N_COMPARED, len(low)))
+    said, bounds = np.asarray(robot.predict(commands)), np.asarray(robot.intervals(commands, LEVEL))
+    outside = np.asarray(robot.is_outside(commands))
+
+    def compared(way: str, answers: tuple[Array, Array, Array]) -> dict[str, Any]:
+        off = [float(np.abs(one - other).max()) for one, other in zip(answers[:2], (said, bounds), strict=True)]
+        differ = int((np.asarray(answers[2]) != outside).sum())
+        return {"robot": title(robot), "way": way, "where": "difference", "mm": max(off), "outside_differs": differ}
+
+    with tempfile.TemporaryDirectory() as folder:
+        model = exported(robot, Path(folder))
+        yield compared(
+            "Python file", (model.predict(commands), model.intervals(commands, LEVEL), model.is_outside(commands))
+        )
+        program = compiled(c_header(robot, [LEVEL], name="arm"), "arm", Path(folder), "-O2")
+        c = asked(program, commands, said.shape[1], level=LEVEL)
+        yield compared("C header", (c.position, np.stack([c.lower, c.upper], axis=-1), c.outside))
+        one = [np.asarray(robot.intervals(row, LEVEL))[0] for row in commands[:N_CALLS]]
+        off = float(np.abs(np.stack(one) - bounds[:N_CALLS]).max())
+        yield {"robot": title(robot), "way": "model, one row against many", "where": "difference", "mm": off}
+        if new_environment:
+            yield compared("Python file, numpy alone", in_new_environment(Path(folder), commands))
+
+
+def in_new_environment(folder: Path, commands: Array) -> tuple[Array, Array, Array]:
+    """What the Python file in a folder answers in a new virtual environment that has numpy alone."""
+    venv.create(folder / "venv", with_pip=True)
+    python = folder / "venv" / "bin" / "python"
+    subprocess.run([python, "-m", "pip", "install", "--quiet", f"numpy=={np.__version__}"], check=True)
+    np.save(folder / "commands.npy", commands)
+    code = "import numpy as np\nfrom arm_file import model\nx = np.load('commands.npy')\n"
+    code += f"np.savez('said.npz', a=model.predict(x), b=model.intervals(x, {LEVEL}), c=model.is_outside(x))"
+    subprocess.run([python, "-c", code], cwd=folder, check=True, env={})
+    said = np.load(folder / "said.npz")
+    return said["a"], said["b"], said["c"]
+
+
+def exported(robot: CalibratedModel, folder: Path) -> Any:
+    """The model of an exported Python file."""
+    path = folder / "arm_file.py"
+    path.write_text(python_file(robot, [LEVEL], name="arm_file"))
+    spec = importlib.util.spec_from_file_location("arm_file", path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module.model
+
+
+def by_hand(robot: CalibratedModel) -> Callable[[Array], Array] | None:
+    """The position by a few lines of numpy, of a Gaussian process with an RBF kernel in positions; else None."""
+    scaler, gp = robot.estimator.regressor_[0], robot.estimator.regressor_[-1]
+    posterior, target = getattr(gp, "posterior_", None), robot.estimator.transformer_
+    if posterior is None or gp.kernel != "rbf" or gp.trend != "linear" or not hasattr(target, "constants_"):
+        return None
+    trend, (rbf, _) = posterior.kernel_.k1, (posterior.kernel_.k2.k1, posterior.kernel_.k2.k2)
+    points, weights = posterior.X_train_, posterior.alpha_
+    scaled, lengths = points / rbf.k2.length_scale, rbf.k2.length_scale
+    mean, scale = target.scaler_.mean_, target.scaler_.scale_
+
+    def position(command: Array) -> Array:
+        x = (command - scaler.mean_) / scaler.scale_
+        kernel = rbf.k1.constant_value * np.exp(-0.5 * np.square(scaled - x / lengths).sum(axis=1))
+        kernel += trend.k1.constant_value * (points @ x + trend.k2.sigma_0**2)
+        return np.asarray(kernel @ weights * scale + mean)
+
+    return position
+
+
+def of_program(program: Path, commands: Array, robot: CalibratedModel) -> dict[str, Any]:
+    """The time of a command by the C header: of many commands, less that of few."""
+    few, many = commands[:1], np.resize(commands, (20 * N_CALLS, commands.shape[1]))
+    ask = partial(asked, program, n_coordinates=robot.known.truth.shape[1], level=LEVEL)
+    short, long = (min(_wall_milliseconds(ask, rows) for _ in range(5)) for rows in (few, many))
+    return {"median_ms": (long - short) / (len(many) - 1)}
+
+
+def _wall_milliseconds(ask: Callable[[Array], object], rows: Array) -> float:
+    start = time.perf_counter()
+    ask(rows)
+    return 1e3 * (time.perf_counter() - start)
+
+
+def at_level(robot: CalibratedModel) -> Callable[[Array], object]:
     """What is timed: bounds at 90 %."""
     return lambda rows: robot.intervals(rows, LEVEL)
 
 
 def places(robot: CalibratedModel) -> dict[str, Array]:
-    """Commands inside, those of `train`, and outside, twice as far out."""
+    """Commands inside, those of `train`; outside, twice as far out; and in a control loop."""
     rows = np.resize(robot.train.commands, (N_CALLS, robot.train.commands.shape[1]))
     farther = rows.mean(axis=0) + 3.0 * (rows - rows.mean(axis=0))
-    return {"inside": rows, "outside": np.resize(farther[np.asarray(robot.is_outside(farther))], rows.shape)}
+    outside = np.resize(farther[np.asarray(robot.is_outside(farther))], rows.shape)
+    return {"inside": rows, "outside": outside, "streaming": rows}
+
+
+def quantiles(call: Callable[[Array], object], commands: Array) -> dict[str, float]:
+    """Median and 99 % quantile in ms: of three rounds the one of the lowest quantile."""
+    rounds = [milliseconds(call, list(commands)) for _ in range(3)]
+    best = min(rounds, key=lambda taken: float(np.quantile(taken, 0.99)))
+    return {"median_ms": float(np.median(best)), "p99_ms": float(np.quantile(best, 0.99))}
 
 
 def milliseconds(call: Callable[[Array], object], arguments: list[Array]) -> list[float]:
-    """Wall time of each call, after one that is not counted."""
+    """CPU time of each call, after one that is not counted: wall time is that of whatever else runs on the machine."""
     call(arguments[0])
     taken = []
     for argument in arguments:
-        start = time.perf_counter()
+        start = time.thread_time()
         call(argument)
-        taken.append(1e3 * (time.perf_counter() - start))
+        taken.append(1e3 * (time.thread_time() - start))
     return taken
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -18,7 +19,11 @@ from tests.exported_robots import remembering, small
 FOLDER = Path(__file__).parent
 COMMANDS = [[0.1, -0.2], [0.6, 0.5], [1.9, -1.4]]
 LEVELS = [0.8, 0.9]
-ROBOTS = {"curvature": lambda: small("huber"), "gaussian_process": lambda: small("gp"), "remembers": remembering}
+ROBOTS: dict[str, Callable[[], CalibratedModel]] = {
+    "curvature": lambda: small("huber"),
+    "gaussian_process": lambda: small("gp"),
+    "remembers": remembering,
+}
 
 
 def answers(robot: CalibratedModel) -> dict[str, Any]:

@@ -15,6 +15,8 @@ from softkin.core.samples import Array
 MOST_TREE_COMMANDS = 15
 #: Cells of the grid at most. More commands than a few have more.
 MOST_CELLS = 1_000_000
+#: One row is compared with all points where there are no more: a call of the tree takes longer.
+MOST_POINTS = 10_000
 #: Fewer rows are searched for in the tree at once.
 FEWEST_ROWS = 1000
 
@@ -36,11 +38,16 @@ class Surroundings:
         else:
             tree = KDTree(self.points, leaf_size=30)
             self._nearest = lambda rows: tree.query(rows, k=1)[0][:, 0]
+        self.columns = np.ascontiguousarray(self.points.T)
         self._make_cells()
 
     def are_far(self, commands: Array) -> NDArray[np.bool_]:
         """Which commands (n_rows, n_commands) are farther from their nearest point than `gap`, (n_rows,)."""
         rows = (commands - self.mean) / self.scale
+        if len(rows) == 1 and len(self.points) <= MOST_POINTS:
+            apart = self.columns - rows[0][:, None]
+            apart *= apart
+            return np.sqrt(apart.sum(axis=0).min(keepdims=True)) > self.gap
         if self.cells is None or len(rows) < FEWEST_ROWS:
             return np.asarray(self._nearest(rows) > self.gap)
         unknown = np.flatnonzero(~self._stand_in_cells(rows))

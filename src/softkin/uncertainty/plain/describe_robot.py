@@ -98,6 +98,7 @@ def growth_numbers(growth: ErrorGrowth) -> Node:
         "floor": np.where(negative, growth.core_exponent * np.log(growth.largest_core), 0.0),
         "slope": growth.slope.copy(),
         "bend": growth.bend.copy(),
+        "steepest": growth.slope + 2 * growth.bend * growth.largest_log_distance,
         "reach": growth.largest_log_distance,
     }
 

@@ -151,9 +151,9 @@ class PlainRobot:
         x = np.log(np.maximum(norms / self.surroundings["radius"], 1.0))[:, None]
         widest = table["limits"][:, None]
         for growth, limits in zip(self.growths, table["growth_limits"], strict=True):
-            near = np.minimum(x, growth["reach"])
-            beyond = (x - near) * (growth["slope"] + 2 * growth["bend"] * growth["reach"])
-            grown = np.exp(growth["floor"] + (near * growth["slope"] + near**2 * growth["bend"] + beyond))
+            slope, bend, reach, steepest = growth["slope"], growth["bend"], growth["reach"], growth["steepest"]
+            near = np.minimum(x, reach)
+            grown = np.exp(growth["floor"] + (near * slope + near**2 * bend + (x - near) * steepest))
             widest = np.maximum(widest, limits[:, None] * grown)
         return np.broadcast_to(widest, (len(widest), len(x), widest.shape[2]))
 
