@@ -15,8 +15,8 @@ PAGE = Path(__file__).parents[1] / "docs" / "latency.md"
 HEAD = """# What an answer costs
 
 Made by `make latency-page`: one command with a 90 % interval, in process, on one thread, median and 99 % quantile in ms
-of CPU time, of the best of three rounds of 300; what else runs on the machine does not count. *Bare estimator* is its
-`predict` alone, *numpy by hand* the position of a Gaussian process in ten lines. *Loading* is all that a new process
+of CPU time, of the best of three rounds of 300. Other programs do not count, but by filling the caches: on a machine
+that is busy all numbers are larger, and ratios say more. *Bare estimator* is its `predict` alone, *numpy by hand* the position of a Gaussian process in ten lines. *Loading* is all that a new process
 takes until its first answer, imports included, *memory* its largest size then. The C header's time is the mean of
 10,000 commands, by the clock.
 *Difference* is the largest of positions and bounds to the model, on 10,000 commands inside and outside.
@@ -70,7 +70,7 @@ def _ratio(row: Mapping[str, Any]) -> float:
 def _times(row: Mapping[str, Any]) -> str:
     if not row:
         return ""
-    return f"{row['median_ms']:.3f}" + (f", {row['p99_ms']:.3f}" if "p99_ms" in row else "")
+    return f"{row['median_ms']:.4f}" + (f", {row['p99_ms']:.4f}" if "p99_ms" in row else "")
 
 
 def _number(row: Mapping[str, Any], key: str) -> str:

@@ -16,8 +16,8 @@ ROWS = [
 
 def test_a_line_for_each_way_to_ask() -> None:
     text = page(read(map(json.dumps, ROWS)))
-    assert "| arm | model | 0.250, 0.500 |  |  |  |  |  |  |" in text
-    assert "| arm | C header | 0.010 |  |  |  |  |  | 2e-13 |" in text
+    assert "| arm | model | 0.2500, 0.5000 |  |  |  |  |  |  |" in text
+    assert "| arm | C header | 0.0100 |  |  |  |  |  | 2e-13 |" in text
     assert "| arm | 9 | 20 | 30 | 1.50 |" in text
     assert "on 0 of these commands" in text
 
