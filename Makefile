@@ -180,6 +180,7 @@ benchmark-recalibration: .venv/installed
 # Whether intervals keep what they promise on 200 simulated recordings that lag, have play, drift and shift.
 benchmark-promises: .venv/installed
 	$(BIN)/python -m benchmarks.promises
+
 # What an answer costs, of the models of a finished run, beside the bare estimator and the exports.
 benchmark-latency: .venv/installed
 	@$(BIN)/python -W ignore -m benchmarks.latency --environment $(wildcard results/*/calibrated_model.joblib)

@@ -137,9 +137,7 @@ class CalibratedModel:
         if predicted is not None:
             predicted = calls.position_rows(predicted, self.names, len(inputs), f"{self.dataset}, predicted")
         ascending = sorted(set(levels))
-        bounds = self._prepared.bounds(
-            inputs, tuple(ascending), self._predicted(inputs) if predicted is None else predicted
-        )
+        bounds = self._bounds(inputs, ascending, self._predicted(inputs) if predicted is None else predicted)
         if levels != ascending:
             bounds = bounds[[ascending.index(level) for level in levels]]
         if isinstance(commands, (pd.DataFrame, pd.Series)):
