@@ -65,7 +65,9 @@ def mean_of(*names: str) -> CalibratedModel:
     """The weighted mean of robots, with the intervals of the first."""
     robots = [ROBOTS[name]() for name in names]
     weights = np.arange(1.0, len(names) + 1)
-    return replace(robots[0], estimator=weighted_mean([one.estimator for one in robots], weights / weights.sum()))
+    return replace(
+        robots[0], estimator=weighted_mean([one.estimator for one in robots], weights / weights.sum(), names)
+    )
 
 
 @cache

@@ -30,7 +30,7 @@ def test_a_norm_of_another_kind_has_no_centre() -> None:
 
 def test_a_weighted_mean_has_a_member_for_each_of_its_own() -> None:
     robot = small_robot()
-    mean = WeightedMean([robot.estimator, robot.estimator], [0.25, 0.75])
+    mean = WeightedMean([robot.estimator, robot.estimator], [0.25, 0.75], ["one", "other"])
     numbers = estimator_numbers(mean, robot.train, has_spread=False)
     assert len(numbers["members"]) == 2
     np.testing.assert_array_equal(numbers["shares"], [0.25, 0.75])
