@@ -65,9 +65,15 @@ class CommandMemory:
 
     def from_rest(self, commands: Array) -> Array:
         """Memory (n_rows, n_memory) at each of `commands` (n_rows, n_commands), each the first after rest."""
-        halves = self.half_widths()[None]
-        plays = np.minimum(np.maximum(self.rest, commands[:, None] - halves), commands[:, None] + halves)
-        return np.hstack([np.tile(self.rest, (len(commands), 1)), plays.reshape(len(commands), -1)])
+        return self.next_after(commands)
+
+    def next_after(self, commands: Array, before: Array | None = None, last: Array | None = None) -> Array:
+        """Memory (n_rows, n_memory) at each of `commands` (n_rows, n_commands), each the next one; as `along`."""
+        n_commands, halves = len(self.rest), self.half_widths()[None]
+        plays = (self.start() if before is None else before)[n_commands:].reshape(len(WIDTHS), n_commands)
+        moved = np.minimum(np.maximum(plays, commands[:, None] - halves), commands[:, None] + halves)
+        previous = self.rest if last is None else last
+        return np.hstack([np.tile(previous, (len(commands), 1)), moved.reshape(len(commands), -1)])
 
     def recorded(self, commands: Array, order: Whole, session: Whole) -> Recording:
         """The recording of all `commands` (n_rows, n_commands) that were sent, in any order of rows."""

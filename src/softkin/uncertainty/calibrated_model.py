@@ -23,6 +23,7 @@ from softkin.uncertainty.described import described
 from softkin.uncertainty.failures import FailureClass
 from softkin.uncertainty.file_format import restore, stored_state
 from softkin.uncertainty.intervals.spec import IntervalMethod
+from softkin.uncertainty.inverse import Inverse
 from softkin.uncertainty.joint_intervals import JointAnswers, JointIntervals
 from softkin.uncertainty.joint_region import JointRegion
 from softkin.uncertainty.new_session import labelled_errors, zero_spread
@@ -31,7 +32,7 @@ from softkin.uncertainty.recalibration import Recalibration, recalibration
 
 
 @dataclass(frozen=True, repr=False)
-class CalibratedModel:
+class CalibratedModel(Inverse):
     """Positions, intervals, joint regions and p-values at any commands (n_rows, n_commands), in mm.
 
     Commands may be an array, lists, one row, or a DataFrame by the robot's own names, which DataFrames answer.

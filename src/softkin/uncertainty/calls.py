@@ -90,7 +90,7 @@ def command_rows(commands: Rows, names: Names, n_inputs: int, where: str) -> Arr
             where=where,
             fix=f"pass one row of {names.n_commands} finite numbers per pose",
         )
-    _check_finite(rows, commands, labels, where)
+    check_finite(rows, commands, labels, where)
     return rows
 
 
@@ -112,7 +112,7 @@ def position_rows(positions: Rows, names: Names, n_rows: int, where: str) -> Arr
             where=where,
             fix=f"pass {names.n_coordinates} coordinates in mm for each of the {n_rows} commands",
         )
-    _check_finite(rows, positions, names.coordinates, where)
+    check_finite(rows, positions, names.coordinates, where)
     return rows
 
 
@@ -207,7 +207,7 @@ def _numbers_among(array: Any, what: str, where: str, fix: str) -> Array:
     return np.array([math.nan if value is None else float(value) for value in array.flat]).reshape(array.shape)
 
 
-def _check_finite(rows: Array, given: Rows, labels: Sequence[str], where: str) -> None:
+def check_finite(rows: Array, given: Rows, labels: Sequence[str], where: str) -> None:
     """Finite, and not so large that arithmetic overflows; says which row and which column."""
     # The sum of a few numbers is faster than a comparison of each; it is finite where all are, or nearly overflows.
     if np.isfinite(total := np.abs(rows).sum()) and total <= MAX_MAGNITUDE:

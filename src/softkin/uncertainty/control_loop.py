@@ -79,6 +79,13 @@ class State:
             )
         return self._after(rows)
 
+    def next_inputs(self, commands: Array) -> Array:
+        """What the model is given at each of `commands` (n_rows, n_commands) if it were the next; none is sent."""
+        if self.estimator is None:
+            return commands
+        memory = self.estimator.robot.next_after(commands, self.memory, self.last)
+        return np.column_stack([commands, memory, np.full(len(commands), self.session)])
+
     def step(self, command: calls.Rows) -> Step:
         """Send one command (n_commands,): position and interval."""
         inputs = self.input_of(command)
@@ -92,10 +99,11 @@ class State:
 
     def _after(self, commands: Array) -> Array:
         """The inputs of commands that are checked; what the robot remembers then is kept."""
+        before, self.last = self.last, commands[-1]
         if self.estimator is None:
             return commands
-        memory = self.estimator.robot.along(commands, self.memory, self.last)
-        self.memory, self.last = memory[-1], commands[-1]
+        memory = self.estimator.robot.along(commands, self.memory, before)
+        self.memory = memory[-1]
         return np.column_stack([commands, memory, np.full(len(commands), self.session)])
 
 
