@@ -21,7 +21,8 @@ from softkin.core.errors import SoftkinError
 
 EXIT_CODES = (
     "Exit codes: 0 as it should be; 1 it failed, or what was asked about is not so; 2 the call or its input is of no "
-    "use; 3 `check`: the robot is not where the model says, `doctor`: something is missing; `campaign` has its own."
+    "use; 3 `check`: the robot is not where the model says, `inverse`: a target is out of reach, `doctor`: something "
+    "is missing; `campaign` has its own."
 )
 app = typer.Typer(
     help="Data-driven forward kinematics of soft robots, with calibrated intervals.",
@@ -50,6 +51,8 @@ class Export(StrEnum):
 Model = Annotated[Path, typer.Argument(help="calibrated_model.joblib of a finished run")]
 Sha256 = Annotated[str | None, typer.Option(help="hash that the model's file must have, if it was taken elsewhere")]
 Trust = Annotated[bool, typer.Option("--trust", help="load a model that has no record and no hash: it runs its code")]
+Out = Annotated[Form, typer.Option(help="form of the answer")]
+To = Annotated[Path | None, typer.Option(help="file that it goes to; standard output where left out")]
 AsJson = Annotated[bool, typer.Option("--json", help="answer in JSON")]
 
 
@@ -99,20 +102,52 @@ def predict(
     joint: Annotated[
         bool, typer.Option("--joint", help="bounds that hold all coordinates of a pose at once, not each by itself")
     ] = False,
-    out: Annotated[Form, typer.Option(help="form of the answer")] = Form.CSV,
-    to: Annotated[Path | None, typer.Option(help="file that it goes to; standard output where left out")] = None,
+    out: Out = Form.CSV,
+    to: To = None,
     as_json: AsJson = False,
 ) -> None:
     """Positions in mm with intervals at commands; `outside` says where nothing is promised."""
-    from softkin.cli.use_model import finite, predicted_table, read_rows
+    from softkin.cli.use_model import predicted_table, read_rows
 
     rows, _, unread = read_rows(commands, robot.names, measured=False)
     _say_unread(unread)
-    table = predicted_table(robot, rows, level, joint=joint)
-    if out is Form.PARQUET and not as_json:
+    _write(predicted_table(robot, rows, level, joint=joint), Form.JSON if as_json else out, to)
+
+
+@app.command(epilog="Example: softkin inverse results/finger/calibrated_model.joblib targets.csv --tolerance 2")
+@explained
+@of_a_model
+def inverse(
+    robot: Any,
+    targets: Annotated[
+        Path, typer.Argument(help="CSV or Parquet: where the marker is to be, columns m1_x, m1_y, m1_z")
+    ],
+    marker: Annotated[int, typer.Option(help="which marker, from 0; -1 is the last")] = -1,
+    confidence: Annotated[float, typer.Option(help="confidence level of what is promised, in (0, 1)")] = 0.9,
+    tolerance: Annotated[float | None, typer.Option(help="mm; adds the probability to be no farther off")] = None,
+    path: Annotated[bool, typer.Option("--path", help="targets are a path, each reached from the one before")] = False,
+    out: Out = Form.CSV,
+    to: To = None,
+    as_json: AsJson = False,
+) -> int:
+    """Commands that take a marker nearest to targets. Exit code 3: a target is out of reach; its `verdict` says so."""
+    from softkin.cli.use_model import command_table, read_targets
+
+    rows, unread = read_targets(targets, robot.names, marker)
+    _say_unread(unread)
+    table = command_table(robot, rows, marker, confidence, tolerance, path=path)
+    _write(table, Form.JSON if as_json else out, to)
+    return 0 if (table["verdict"] == "reachable").all() else 3
+
+
+def _write(table: Any, out: Form, to: Path | None) -> None:
+    """The table to a file, or to standard output."""
+    from softkin.cli.use_model import finite
+
+    if out is Form.PARQUET:
         table.to_parquet(to if to is not None else sys.stdout.buffer, index=False)
         return
-    if as_json or out is Form.JSON:
+    if out is Form.JSON:
         records = [{key: finite(value) for key, value in row.items()} for row in table.to_dict(orient="records")]
         text = json.dumps(records, allow_nan=False) + "\n"
     else:

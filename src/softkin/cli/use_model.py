@@ -1,4 +1,4 @@
-"""Use a calibrated model on tables: predictions at commands, and whether a robot is where the model says."""
+"""Use a calibrated model on tables: predictions at commands, targets, and whether a robot is where the model says."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from softkin.data.readers.table_formats import open_table
 from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.calls import Names
 from softkin.uncertainty.control_loop import State
+from softkin.uncertainty.targets import TargetNames, marker_of
 
 #: Share of false alarms that p-values are counted at.
 ALPHA = 0.1
@@ -106,34 +107,63 @@ def read_rows(path: Path, names: Names, *, measured: bool) -> tuple[pd.DataFrame
     Raises:
         DataError: no such file, no table, or columns are missing.
     """
-    if not path.is_file():
-        raise DataError("no such file", where=path, fix="name a CSV or Parquet file with a row for each command")
-    try:
-        table = open_table(path, {})
-    except DataError as error:
-        raise error.within(str(path)) from error
     kinds = [[names.own_commands, command_columns(names.n_commands)]]
     kinds += [[names.own_positions, names.coordinates]] if measured else []
-    wanted = [column for namings in kinds for column in _nearest(namings, table.names)]
-    there = [name for name in wanted if name in table.names]
-    try:
-        values, _ = table.read([table.names.index(name) for name in there], [])
-    except DataError as error:
-        raise error.within(str(path)) from error
-    frame = pd.DataFrame(values, columns=there)
-    command_names = _nearest(kinds[0], table.names)
-    commands = names.commands_in(frame[[name for name in there if name in command_names]], str(path))
-    if not len(frame):
-        raise DataError("no rows", where=path, fix="name a file with a row for each command")
+    frame, unread = _read(path, kinds)
+    command_names = _nearest(kinds[0], [*frame.columns, *unread])
+    commands = names.commands_in(frame[[name for name in frame.columns if name in command_names]], str(path))
     positions = None
     if measured:
-        positions = names.positions_in(frame[[name for name in there if name not in command_names]], str(path))
-    return commands, positions, [name for name in table.names if name not in there]
+        positions = names.positions_in(frame[[name for name in frame.columns if name not in command_names]], str(path))
+    _check_rows(frame, path)
+    return commands, positions, unread
+
+
+def read_targets(path: Path, names: Names, marker: int) -> tuple[pd.DataFrame, list[str]]:
+    """Targets of a marker in mm of a CSV or Parquet file, columns m1_x, m1_y, m1_z, and the columns not read.
+
+    Raises:
+        DataError, ConfigError: no such file, no table, columns are missing, or no such marker.
+    """
+    own = TargetNames.of_marker(names, marker_of(marker, names.n_coordinates // 3, str(path)))
+    frame, unread = _read(path, [[own.own_positions, own.coordinates]])
+    targets = own.positions_in(frame, str(path))
+    _check_rows(frame, path)
+    return targets, unread
+
+
+def command_table(
+    robot: CalibratedModel, targets: pd.DataFrame, marker: int, level: float, tolerance: float | None, *, path: bool
+) -> pd.DataFrame:
+    """Commands that take the marker nearest to targets, by the robot's own names, and what is promised there; along a
+    `path` sent one after the other from rest.
+    """
+    asked = robot.command_path if path else robot.command_for
+    return pd.DataFrame(asked(targets, marker, level, tolerance=tolerance))
 
 
 def finite(value: Any) -> Any:
     """A number for JSON, which has no infinity: None in its place."""
     return value if not isinstance(value, float) or np.isfinite(value) else None
+
+
+def _read(path: Path, kinds: Sequence[Sequence[Sequence[str]]]) -> tuple[pd.DataFrame, list[str]]:
+    """The columns that are there, each kind by the naming that fits best, and the names of the others."""
+    if not path.is_file():
+        raise DataError("no such file", where=path, fix="name a CSV or Parquet file with a row for each command")
+    try:
+        table = open_table(path, {})
+        wanted = [column for namings in kinds for column in _nearest(namings, table.names)]
+        there = [name for name in wanted if name in table.names]
+        values, _ = table.read([table.names.index(name) for name in there], [])
+    except DataError as error:
+        raise error.within(str(path)) from error
+    return pd.DataFrame(values, columns=there), [name for name in table.names if name not in there]
+
+
+def _check_rows(frame: pd.DataFrame, path: Path) -> None:
+    if not len(frame):
+        raise DataError("no rows", where=path, fix="name a file with a row for each command")
 
 
 def _nearest(namings: Sequence[Sequence[str]], given: Sequence[str]) -> list[str]:

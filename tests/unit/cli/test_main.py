@@ -28,6 +28,10 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     commands.to_csv("commands.csv", index=False)
     positions = pd.DataFrame(ROWS.positions, columns=["m1_x", "m1_y", "m1_z"])
     pd.concat([commands, positions], axis=1).to_csv("well.csv", index=False)
+    pd.DataFrame(small_robot().predict(ROWS.commands[:2] / 2), columns=positions.columns).to_csv(
+        "inside.csv", index=False
+    )
+    (positions[:2] + 50.0).to_csv("far.csv", index=False)
     pd.concat([commands, positions + 3.0], axis=1).to_csv("moved.csv", index=False)
     return tmp_path
 
@@ -57,6 +61,25 @@ def test_a_model_is_exported_in_each_form(folder: Path) -> None:
     assert json.loads(done.stdout) == ["left.h"]
 
 
+def test_commands_for_targets_say_what_is_out_of_reach(folder: Path) -> None:
+    """What comes out is what `predict` takes, and it goes where it says."""
+    done = asked("inverse", "model.joblib", "far.csv", "--trust", "--tolerance", "2", "--to", "far_commands.csv")
+    assert (done.exit_code, done.stdout, done.stderr) == (3, "", "")
+    far = pd.read_csv("far_commands.csv")
+    assert (far["verdict"] != "reachable").all()
+    assert (far["probability"] == 0).all()
+    assert asked("predict", "model.joblib", "far_commands.csv", "--trust", "--to", "again.csv").exit_code == 0
+    pd.testing.assert_series_equal(pd.read_csv(folder / "again.csv")["m1_x"], far["m1_x"])
+    pd.read_csv("again.csv")[["m1_x", "m1_y", "m1_z", "outside"]].to_csv("reached.csv", index=False)
+    done = asked("inverse", "model.joblib", "reached.csv", "--trust", "--path", "--marker", "0", "--json")
+    assert done.stderr == "softkin: not read: outside\n"
+    assert done.exit_code == (0 if all(row["verdict"] == "reachable" for row in json.loads(done.stdout)) else 3)
+    assert json.loads(done.stdout)[1]["left"] == pytest.approx(far["left"][1], abs=1e-3)
+    inside = asked("inverse", "model.joblib", "inside.csv", "--trust", "--confidence", "0.8")
+    assert inside.exit_code == 0
+    assert inside.stdout.startswith("left,right,m1_x,lower_m1_x,upper_m1_x,")
+
+
 @pytest.mark.parametrize(("recording", "code"), [("well.csv", 0), ("moved.csv", 3)])
 def test_the_exit_code_says_whether_the_robot_is_where_it_should_be(folder: Path, recording: str, code: int) -> None:
     del folder
@@ -78,6 +101,10 @@ def test_the_exit_code_says_whether_the_robot_is_where_it_should_be(folder: Path
         (["check", "model.joblib", "well.csv", "--trust", "--rate", "2"], "no rate of false alarms"),
         (["export", "model.joblib", "--trust", "--level", "90"], "write it as 0.9"),
         (["export", "none.joblib"], "no such file"),
+        (["inverse", "model.joblib", "none.csv", "--trust"], "no such file"),
+        (["inverse", "model.joblib", "commands.csv", "--trust"], "missing 'tip x'"),
+        (["inverse", "model.joblib", "far.csv", "--trust", "--marker", "3"], "3 is no marker of this robot"),
+        (["inverse", "model.joblib", "far.csv", "--trust", "--confidence", "90"], "write it as 0.9"),
         (["doctor"], "run it in the folder of softkin"),
     ],
 )
@@ -105,6 +132,7 @@ def test_help_has_examples_and_exit_codes_and_loads_no_numerical_library() -> No
         "predict",
         "check",
         "export",
+        "inverse",
         "ui",
         "campaign",
         "verify",
