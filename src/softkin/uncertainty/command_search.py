@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +14,7 @@ from softkin.core.samples import Array
 #: Step of finite differences, in units of each command's range: the square root of the precision of doubles is 1.5e-8.
 STEP = 1e-6
 #: Tolerances of least squares, and how often it evaluates the model at most.
-TOLERANCE, MOST_EVALUATIONS = 1e-9, 60
+TOLERANCE, MOST_EVALUATIONS = 1e-7, 60
 #: Weight of staying near the last command, where commands are redundant; they are when a singular value of the Jacobian
 #: is less than this share of the largest.
 NEARNESS, NO_EFFECT = 1e-3, 1e-4
@@ -43,7 +43,7 @@ class CommandSearch:
     extent_mm: float
     close_mm: float
 
-    def nearest(self, target: Array, starts: Sequence[Array], last: Array | None, *, first_wins: bool) -> Array:
+    def nearest(self, target: Array, starts: Iterable[Array], last: Array | None, *, first_wins: bool) -> Array:
         """The command (n_commands,) that takes the marker nearest to `target` (3,) in mm.
 
         The search ends when two starts lead to the same command. Of commands that are equally good one in-domain is

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
@@ -146,9 +147,7 @@ class _Wish:
         commands, inputs = [], []
         for target in self.targets:
             search = self._search(state, step)
-            starts = self._nearest_poses(target, search)
-            if state.last is not None:
-                starts.insert(0 if in_a_row else 1, np.clip(state.last, search.lower, search.upper))
+            starts = self._begin_at(target, search, state.last, in_a_row=in_a_row)
             command = search.nearest(target, starts, state.last, first_wins=in_a_row or state.last is None)
             commands.append(command)
             inputs.append((state.inputs(command) if in_a_row else state.next_inputs(command[None]))[0])
@@ -187,18 +186,25 @@ class _Wish:
 
         return CommandSearch(position, self.robot.is_outside, lower, upper, self.extent_mm, self.close_mm)
 
-    def _nearest_poses(self, target: Array, search: CommandSearch) -> list[Array]:
-        """Commands of `train` (n_commands,) whose predicted poses are nearest, apart from each other; clipped."""
+    def _begin_at(self, target: Array, search: CommandSearch, last: Array | None, *, in_a_row: bool) -> Iterator[Array]:
+        """Commands (n_commands,) of `train` whose predicted poses are nearest, apart from each other, and the last; all
+        clipped to the bounds, and each worked out when it is needed.
+        """
+        here = [] if last is None else [np.clip(last, search.lower, search.upper)]
+        if in_a_row:
+            yield from here
         commands, poses = self.robot._starts
         width = np.where(self.upper > self.lower, self.upper - self.lower, 1.0)
-        chosen: list[Array] = []
-        for row in np.argsort(np.linalg.norm(poses[:, self.own] - target, axis=1)):
-            command = np.clip(commands[row], search.lower, search.upper)
-            if all(np.linalg.norm((command - other) / width) >= LEAST_APART for other in chosen):
-                chosen.append(command)
-            if len(chosen) == N_STARTS:
-                break
-        return chosen
+        commands = np.clip(commands, search.lower, search.upper)
+        distances = np.square(poses[:, self.own] - target).sum(axis=1)
+        for place in range(N_STARTS):
+            nearest = int(np.argmin(distances))
+            if np.isinf(distances[nearest]):
+                return
+            yield commands[nearest]
+            if place == 0 and not in_a_row:
+                yield from here
+            distances[np.linalg.norm((commands - commands[nearest]) / width, axis=1) < LEAST_APART] = np.inf
 
     def _promised(self, commands: Array, inputs: Array) -> CommandAnswers:
         """The answers: what the errors of the marker on the calibration set promise around each predicted position."""
