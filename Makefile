@@ -29,7 +29,7 @@ endif
 .PHONY: gallery numbers results-page single-rows
 .PHONY: snakemake-report campaigns campaign-slurm coverage standins timings benchmark benchmark-large benchmark-pruning benchmark-shells
 .PHONY: benchmark-figures benchmark-two-files benchmark-commands benchmark-many-robots benchmark-recalibration benchmark-choice benchmark-promises
-.PHONY: benchmark-latency latency-page
+.PHONY: benchmark-latency latency-page benchmark-inverse
 .PHONY: environment clean ui-screenshot bad-inputs-page faults-page
 
 # These targets, each with the first sentence of the comment above it.
@@ -189,6 +189,10 @@ benchmark-latency: .venv/installed
 latency-page: .venv/installed
 	$(BIN)/python -W ignore -m benchmarks.latency --environment $(wildcard results/*/calibrated_model.joblib) > results/latency.jsonl
 	$(BIN)/python -m tools.latency_page results/latency.jsonl
+
+# Commands for targets, beside the damped least squares of the dataset's authors; sent to simulated robots.
+benchmark-inverse: .venv/installed
+	$(BIN)/python -m benchmarks.inverse $${SOFTKIN_DATA_MIRROR:+"$$SOFTKIN_DATA_MIRROR"}
 
 # Whether the figures of a robot of 100,000 rows stay under 500 MB.
 benchmark-figures: .venv/installed
