@@ -65,6 +65,15 @@ def test_memory_goes_on_where_it_was_left(commands: Array) -> None:
     np.testing.assert_array_equal(whole[1:, :2], commands[:-1])
 
 
+@given(SEQUENCES)
+def test_each_of_several_next_commands_is_remembered_as_if_sent(commands: Array) -> None:
+    robot = CommandMemory(REST, np.ones(2))
+    before = robot.along(commands)[-1]
+    candidates = commands[::-1] + 0.3
+    sent = [robot.along(one[None], before, commands[-1])[0] for one in candidates]
+    np.testing.assert_array_equal(robot.next_after(candidates, before, commands[-1]), sent)
+
+
 def test_a_session_begins_at_rest_whatever_the_order_of_rows() -> None:
     commands = np.array([[1.0], [5.0], [2.0], [9.0]])
     memory = CommandMemory.of(commands)
