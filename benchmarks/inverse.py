@@ -36,7 +36,7 @@ from softkin.uncertainty.intervals import INTERVAL_METHODS
 
 HOUSE = Path(__file__).parents[1]
 GP = {"kernel": "rbf", "trend": "linear", "max_iter": 10, "learning_rows": 200}
-N_TRAIN, N_VALIDATION, N_TIMED, N_SENT, LEVEL = 600, 200, 10, 200, 0.9
+N_TRAIN, N_VALIDATION, N_TIMED, N_SENT, LEVEL = 600, 200, 30, 200, 0.9
 ITERATIONS, STEP, STALLED, DAMPINGS = 2_000, 1e-6, 1e-9, (1e-3, 1e-2, 1e-1)
 #: No seed of a configuration, a test or another benchmark.
 SEED = 2101
@@ -115,7 +115,7 @@ def damped(robot: CalibratedModel, target: Array, damping: float, close: float, 
     share, largest = np.full(len(lower), 0.5), 0.0
     for _ in range(ITERATIONS):
         rows = np.vstack([share, share + STEP * np.eye(len(share))])
-        points = np.asarray(robot.predict(lower + rows * (upper - lower)))[:, -3:]
+        points = robot._prepared.predicted_of_few(lower + rows * (upper - lower))[:, -3:]
         missing, jacobian = target - points[0], ((points[1:] - points[0]) / STEP).T
         if np.linalg.norm(missing) <= close:
             break

@@ -182,7 +182,7 @@ class _Wish:
         here = copy(state)
 
         def position(commands: Array) -> Array:
-            return np.asarray(self.robot.predict(here.next_inputs(commands)))[:, self.own]
+            return np.asarray(self.robot._prepared.predicted_of_few(here.next_inputs(commands)))[:, self.own]
 
         return CommandSearch(position, self.robot.is_outside, lower, upper, self.extent_mm, self.close_mm)
 

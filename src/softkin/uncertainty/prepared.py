@@ -53,6 +53,10 @@ class Prepared:
         predicted = np.asarray(self.robot.estimator.predict(inputs))
         return predicted if self.robot.recalibration is None else predicted + self.robot.recalibration.zero
 
+    def predicted_of_few(self, inputs: Array) -> Array:
+        """As `predicted`; from plain numbers, where there are any, which is faster for a few rows."""
+        return self.plain.placed(inputs)[0] if self.plain.members else self.predicted(inputs)
+
     def bounds(self, inputs: Array, levels: Levels, predicted: Array) -> Array:
         """Intervals (n_levels, n_rows, n_coordinates, 2) in mm at ascending levels, around positions `predicted`."""
         commands, table = inputs[:, : self.robot.train.commands.shape[1]], self.table(levels)

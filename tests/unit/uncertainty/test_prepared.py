@@ -65,6 +65,13 @@ def test_what_is_outside_is_what_the_slow_path_says(name: str) -> None:
     assert np.asarray(robot.is_outside(inside)).sum() == 0
 
 
+@pytest.mark.parametrize("name", ROBOTS)
+def test_few_rows_are_predicted_as_many_are(name: str) -> None:
+    robot = ROBOTS[name]
+    few = robot._prepared.predicted_of_few(NEW[:4])
+    np.testing.assert_allclose(few, robot.estimator.predict(NEW[:4]), rtol=0, atol=1e-9)
+
+
 def test_nothing_is_fitted_twice(monkeypatch: pytest.MonkeyPatch) -> None:
     fits: list[int] = []
 
