@@ -43,8 +43,9 @@ def test_what_had_other_params_is_made_anew_though_snakemakes_records_are_lost(h
     there = House(house.root, tmp_path / "work", house.mirror)
     assert "other params" not in there.looking("--dry-run")[1]
     said = there.looking("--dry-run", "--config", "seed=7")[1]
-    for words in ("fit_model finger lr", "calibrate finger", "score elastica_2023_09"):
+    for words in ("fit_model elastica_2023_09 lr", "calibrate elastica_2023_09", "score elastica_2023_09"):
         assert f"softkin: {words} was done with other params (seed); it is done anew." in said
+    assert re.search(r"softkin: \d+ more jobs were done with other params; they are done anew\.", said)
     assert "prepare" not in said
     fewer = ["--config", "max_rows_per_subset=100"]
     table = "results/finger/table.parquet"

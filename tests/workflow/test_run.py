@@ -32,6 +32,7 @@ from softkin.uncertainty.calibration_data import (
 )
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from softkin.uncertainty.labelled import LABELLED_METHODS
+from softkin.uncertainty.regions.spec import JOINT_INTERVALS
 from tests.conftest import HOUSE
 from tests.workflow.conftest import NOWHERE, House, copy_house
 
@@ -130,7 +131,8 @@ def test_interval_metrics_have_a_row_for_everything(house: House) -> None:
     expected = {name: 2 * 2 * n_runs[INTERVAL_METHODS[name].calibrated_on] * 6 * 3 for name in rest}
     # The paper's quantiles are fitted for its level alone.
     expected["qr"] = 2 * 2 * (1 + 3) * len(SMALL["quantile_models"]) * 6
-    assert rows == expected | dict.fromkeys(SMALL["regions"], 2 * 2 * runs * 3)
+    joint = dict.fromkeys(SMALL["regions"], 2 * 2 * runs * 3) | {JOINT_INTERVALS: 2 * 2 * 3}
+    assert rows == expected | joint
     engines = table[table["interval_method"].str.startswith("scp")].pivot(
         index=[key for key in keys if key != "interval_method"], columns="interval_method", values="winkler_mm"
     )

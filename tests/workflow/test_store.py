@@ -156,4 +156,4 @@ def test_a_server_takes_the_place_of_the_file(house: House, server: str, tmp_pat
     commands = robot.train.commands[: len(answer)]
     np.testing.assert_allclose(answer.filter(like="y_pred"), robot.predict(commands), rtol=1e-12)
     bounds = robot.intervals(commands, [0.9])[0]
-    np.testing.assert_allclose(answer.filter(like="upper"), bounds[..., 1], rtol=1e-12)
+    np.testing.assert_allclose(answer.filter(regex="^upper"), bounds[..., 1], rtol=1e-12)

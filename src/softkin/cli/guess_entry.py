@@ -79,14 +79,12 @@ def guess_entry(
         "split": split_options,
     }
     when, why_when = _when(table, kinds)
-    running = _running(kinds, looked)
-    if running and not when and split_options["method"] == "random" and column_kinds.are_alike(inputs):
-        when, split_options = {"order": running}, {"method": "later"}
-        why_split = (
-            f"order, split: '{running}' is a running number and rows in turn are alike, so in time; please check"
-        )
-    elif not when and split_options["method"] == "random" and column_kinds.are_alike(inputs):
-        reasons.append("order: rows in turn are alike, as those of a recording: add a column of its time to the file")
+    if not when and split_options["method"] == "random" and column_kinds.are_alike(inputs):
+        if running := column_kinds.running_number(kinds, looked):
+            when, split_options = {"order": running}, {"method": "later"}
+            why_split = f"order, split: '{running}' is a running number and rows in turn are alike; please check"
+        else:
+            reasons.append("order: rows in turn are alike, as of a recording: add a column of its time to the file")
     entry |= when | missing
     entry["split"] = split_options
     if column_kinds.affine_copies(inputs, values):
@@ -96,8 +94,7 @@ def guess_entry(
         entry["dimensions"] = 2
         reasons.append("dimensions: positions of two axes only, so a planar robot")
     used = (*commands, *positions, split_options.get("column"), *when.values())
-    left_out = [name for name in table.names if name not in used]
-    if left_out:
+    if left_out := [name for name in table.names if name not in used]:
         reasons.append(f"left out: {reasons_left_out(left_out, looked, {name: kind_of(name) for name in left_out})}")
     return entry, reasons
 
@@ -190,11 +187,6 @@ def _values(table: Table, names: Sequence[str], looked: Mapping[str, Any]) -> tu
     count = int(np.isnan(values).any(axis=1).sum())
     why = f"missing: {count} of {len(values)} rows lack a number and are left out; please check"
     return values[~np.isnan(values).any(axis=1)], {"missing": "drop_rows"}, [why]
-
-
-def _running(kinds: Mapping[str, str | None], looked: Mapping[str, Any]) -> str | None:
-    """The first column that is a running number by its name and its numbers."""
-    return next((name for name in kinds if kinds[name] == "ignored" and column_kinds.is_running(looked[name])), None)
 
 
 def _unit(names: Sequence[str], values: Array, path: Path, table: Table) -> tuple[str, str]:

@@ -128,7 +128,6 @@ def inverse(
     path: Annotated[bool, typer.Option("--path", help="targets are a path, each reached from the one before")] = False,
     out: Out = Form.CSV,
     to: To = None,
-    as_json: AsJson = False,
 ) -> int:
     """Commands that take a marker nearest to targets. Exit code 3: a target is out of reach; its `verdict` says so."""
     from softkin.cli.use_model import command_table, read_targets
@@ -136,7 +135,7 @@ def inverse(
     rows, unread = read_targets(targets, robot.names, marker)
     _say_unread(unread)
     table = command_table(robot, rows, marker, confidence, tolerance, path=path)
-    _write(table, Form.JSON if as_json else out, to)
+    _write(table, out, to)
     return 0 if (table["verdict"] == "reachable").all() else 3
 
 

@@ -50,12 +50,13 @@ def redo_changed(params_of: Callable[[str], Mapping[str, Any] | None], *, only_s
         params = params_of(content["job"])
         others = [] if params is None else other_params(content["params"], params)
         if others:
-            found.append(f"{content['job']} was done with other params ({', '.join(others)})")
+            found.append(f"{content['job']} was done with other params ({', '.join(others)}); it is done anew")
             for output in outputs if not only_say else ():
                 _mark(output)
     left = len(found) - MOST_NAMED
-    more = [f"{left} more jobs were done with other params"] * (left > 0)
-    yield from (f"{sentence}; it is done anew" for sentence in [*found[:MOST_NAMED], *more])
+    yield from found[:MOST_NAMED]
+    if left > 0:
+        yield f"{left} more jobs were done with other params; they are done anew"
 
 
 def sentences(found: Sequence[Damage]) -> list[str]:

@@ -71,7 +71,7 @@ def test_commands_for_targets_say_what_is_out_of_reach(folder: Path) -> None:
     assert asked("predict", "model.joblib", "far_commands.csv", "--trust", "--to", "again.csv").exit_code == 0
     pd.testing.assert_series_equal(pd.read_csv(folder / "again.csv")["m1_x"], far["m1_x"])
     pd.read_csv("again.csv")[["m1_x", "m1_y", "m1_z", "outside"]].to_csv("reached.csv", index=False)
-    done = asked("inverse", "model.joblib", "reached.csv", "--trust", "--path", "--marker", "0", "--json")
+    done = asked("inverse", "model.joblib", "reached.csv", "--trust", "--path", "--marker", "0", "--out", "json")
     assert done.stderr == "softkin: not read: outside\n"
     assert done.exit_code == (0 if all(row["verdict"] == "reachable" for row in json.loads(done.stdout)) else 3)
     assert json.loads(done.stdout)[1]["left"] == pytest.approx(far["left"][1], abs=1e-3)

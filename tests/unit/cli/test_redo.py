@@ -86,4 +86,4 @@ def test_of_many_jobs_the_first_are_named() -> None:
     said = list(redo_changed(lambda words: {"seed": 2} if words.startswith("fit_model") else None, only_say=True))
     assert len(said) == 11
     assert said[0] == "fit_model finger a was done with other params (seed); it is done anew"
-    assert said[-1] == "3 more jobs were done with other params; it is done anew"
+    assert said[-1] == "3 more jobs were done with other params; they are done anew"

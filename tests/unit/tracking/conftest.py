@@ -108,8 +108,12 @@ def interval_files(tmp_path: Path) -> dict[str, Path]:
                     "infinite_share": 0.0,
                     "crossing_share": 0.0,
                 }
-                values |= {"crps_mm": float("nan"), "size_mm": 2.5 if coordinate == "joint" else float("nan")}
+                values |= {
+                    "crps_mm": float("nan"),
+                    "size_mm": 2.5 if coordinate == "joint" else float("nan"),
+                }
                 values["winkler_mm"] = float("inf") if coordinate == "joint" else 3.0
+                values["winkler_without_gross_mm"] = values["winkler_mm"]
                 rows.append(
                     key | {"interval_method": method, "coordinate": coordinate, "confidence_level": 0.9} | values
                 )

@@ -83,8 +83,7 @@ def read(
         samples = Samples(values[:, :n_commands], _spatial(values[:, n_commands:], dimensions), recording)
         column = by["split"][left.rows] if "split" in by else None
         how = (source["split"], samples.commands, column, place)
-        subset_of = split.split(*how, recording)
-        samples = replace(samples, block=blocks(*how))
+        subset_of, samples = split.split(*how, recording), replace(samples, block=blocks(*how))
         sizes = dict(zip(SUBSETS, np.bincount(subset_of, minlength=len(SUBSETS)).tolist(), strict=True))
         split.check_sizes(sizes)
     except DataError as error:

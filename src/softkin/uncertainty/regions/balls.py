@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from functools import partial
 
 import numpy as np
@@ -10,17 +9,12 @@ from numpy.typing import NDArray
 
 from softkin.core.samples import Array
 from softkin.uncertainty.conformal import conformal_limit, error_scale
-from softkin.uncertainty.regions.spec import Region, RegionMethod
+from softkin.uncertainty.regions.spec import Region, RegionMethod, log_ball_volume
 
 
 def marker_errors(residuals: Array, markers: NDArray[np.intp]) -> Array:
     """Euclidean error (n_rows, n_markers) in mm over the coordinates of each marker; `markers` (n_coordinates,)."""
     return np.column_stack([np.linalg.norm(residuals[:, markers == one], axis=1) for one in np.unique(markers)])
-
-
-def log_ball_volume(dimensions: Array) -> Array:
-    """Logarithm of the volume of the unit ball in each number of dimensions."""
-    return np.array([0.5 * n * math.log(math.pi) - math.lgamma(0.5 * n + 1) for n in dimensions])
 
 
 def region(

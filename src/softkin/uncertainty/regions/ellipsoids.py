@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 
 from softkin.core.samples import Array
 from softkin.uncertainty.conformal import error_scale
-from softkin.uncertainty.regions.balls import log_ball_volume
-from softkin.uncertainty.regions.spec import Region, RegionMethod, of_shape
+from softkin.uncertainty.regions.spec import Region, RegionMethod, log_ball_volume, of_shape
 
 #: Added to the diagonal of a covariance as a share of its mean, so that it can be factorised.
 RIDGE = 1e-9

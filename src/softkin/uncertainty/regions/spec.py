@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
@@ -78,3 +79,8 @@ def of_shape(shape: Shape, residuals: Array, confidence_level: float) -> Region:
         covers=lambda new: np.asarray(shape.scores(new) <= limit),
         size_mm=shape.unit_size_mm * limit,
     )
+
+
+def log_ball_volume(dimensions: Array) -> Array:
+    """Logarithm of the volume of the unit ball in each number of dimensions."""
+    return np.array([0.5 * n * math.log(math.pi) - math.lgamma(0.5 * n + 1) for n in dimensions])

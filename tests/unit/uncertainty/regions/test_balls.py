@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from softkin.uncertainty.regions.balls import METHOD, SCALED, log_ball_volume, marker_errors
-from softkin.uncertainty.regions.spec import RegionMethod
+from softkin.uncertainty.regions.balls import METHOD, SCALED, marker_errors
+from softkin.uncertainty.regions.spec import RegionMethod, log_ball_volume
 from tests.unit.uncertainty.regions.conftest import MARKERS, ONE_MARKER, on_a_sphere, residuals
 
 
