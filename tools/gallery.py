@@ -23,7 +23,7 @@ from softkin.core.files import replacing, write_text
 from softkin.core.samples import EXTRAPOLATION, TEST
 from softkin.data.audit.findings import leak_notes
 from softkin.reporting.tables.interval_choice import deployed_intervals
-from softkin.reporting.tables.numbers import length_text, share_text
+from softkin.reporting.tables.numbers import assessed_text, length_text, share_text
 from softkin.training.selection import deployed
 from tools.finished_run import TITLES, FinishedRun, table
 
@@ -74,8 +74,12 @@ def robots_table(run: FinishedRun) -> str:
         test, extrapolation = robot["scores"].loc[TEST], robot["scores"].loc[EXTRAPOLATION]
         interval = choice.loc[robot["dataset"]]
         errors = (test["euclidean_p95_mm"], test["euclidean_mean_mm"], extrapolation["euclidean_mean_mm"])
-        shares = (interval["test_coverage"], interval["extrapolation_coverage"])
-        cells = [*map(length_text, (*errors, interval["test_mean_width_mm"])), *map(share_text, shares)]
+        beyond = assessed_text(interval["extrapolation_coverage"], interval["extrapolation_assessable"])
+        cells = [
+            *map(length_text, (*errors, interval["test_mean_width_mm"])),
+            share_text(interval["test_coverage"]),
+            beyond,
+        ]
         title = robot["title"] + (" (leak)" if robot["leak"] else "")
         rows.append([title, TITLES.models[robot["model"]], *cells])
     level = share_text(choice["confidence_level"].iloc[0], 0)

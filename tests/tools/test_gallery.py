@@ -56,7 +56,7 @@ def results(tmp_path: Path) -> Path:
                 errors = {"euclidean_mean_mm": worse * factor * mean, "euclidean_p95_mm": worse * factor * p95}
                 scores.append({"dataset": robot, "model": "gp", "preset": preset, "subset": subset} | errors)
         for is_deployed, coverage in ((True, 0.912), (False, 0.7)):
-            shares = {"test_coverage": coverage, "extrapolation_coverage": 0.88}
+            shares = {"test_coverage": coverage, "extrapolation_coverage": 0.88, "extrapolation_assessable": True}
             values = {"confidence_level": 0.9, "test_mean_width_mm": 3 * mean} | shares
             choices.append({"dataset": robot, "chosen": not is_deployed, "deployed": is_deployed} | values)
     selection = [{"dataset": robot, "model": "gp", "preset": "tuned", "deployed": True} for robot in ERRORS]
