@@ -46,7 +46,7 @@ def test_what_had_other_params_is_made_anew_though_snakemakes_records_are_lost(h
     for words in ("fit_model elastica_2023_09 lr", "calibrate elastica_2023_09", "score elastica_2023_09"):
         assert f"softkin: {words} was done with other params (seed); it is done anew." in said
     assert re.search(r"softkin: \d+ more jobs were done with other params; they are done anew\.", said)
-    assert "prepare" not in said
+    assert "softkin: prepare" not in said
     fewer = ["--config", "max_rows_per_subset=100"]
     table = "results/finger/table.parquet"
     done = there.snakemake(table, *fewer)
