@@ -105,13 +105,19 @@ def test_where_the_terminal_is_closed_the_next_run_finishes_and_has_an_estimate(
     assert 3 <= int(minutes[1]) <= 30  # ten, at the pace of a machine that others use, too
 
 
+def on_a_terminal_of_its_own() -> None:
+    """In the child: its terminal ends it, also where these tests themselves ignore that theirs is closed (nohup)."""
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
+    fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+
+
 def close_a_terminal(house: House, *options: str) -> None:
     """Run on a terminal that is closed when a fit has begun."""
     master, slave = pty.openpty()
     run = subprocess.Popen(
         house.command(*options), env=house.environment() | {"TERM": "xterm"}, cwd=house.root,
         stdin=slave, stdout=slave, stderr=slave, start_new_session=True,
-        preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0),  # its own terminal, which ends it
+        preexec_fn=on_a_terminal_of_its_own,
     )  # fmt: skip
     os.close(slave)
     log, written = house.work / "results" / "logs" / "fit_model" / "finger" / "gb.log", b""
