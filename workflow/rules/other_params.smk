@@ -19,7 +19,7 @@ def params_of(words):
     if not workflow.is_rule(name):
         return None
     defined = workflow.get_rule(name)
-    found = defined.log[0].match("/".join(["results/logs", name, *names]) + ".log")
+    found = defined.log[0].match(f"{Path('results', 'logs', name, *names)}.log")
     if found is None or any(
         of not in NAMES[key] for key, of in found.groupdict().items()
     ):
