@@ -45,13 +45,15 @@ def redo_changed(params_of: Callable[[str], Mapping[str, Any] | None], *, only_s
         if content is None or not content.get("params"):
             continue
         outputs = {Path(entry["output"]) for entry in content["files"].values()}
-        if all(_place(FINISHED, output).exists() for output in outputs):
+        # A folder that is gone was removed on purpose, with all that is in it.
+        lost = [output for output in outputs if not _place(FINISHED, output).exists() and output.parent.is_dir()]
+        if not lost:
             continue
         params = params_of(content["job"])
         others = [] if params is None else other_params(content["params"], params)
         if others:
             found.append(f"{content['job']} was done with other params ({', '.join(others)}); it is done anew")
-            for output in outputs if not only_say else ():
+            for output in lost if not only_say else ():
                 _mark(output)
     left = len(found) - MOST_NAMED
     yield from found[:MOST_NAMED]

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import shutil
 from base64 import urlsafe_b64encode
 from collections.abc import Mapping
 from pathlib import Path
@@ -78,6 +79,21 @@ def test_where_snakemake_has_its_records_it_compares_by_itself() -> None:
     FINISHED.mkdir(parents=True)
     (FINISHED / urlsafe_b64encode(str(FILES[0]).encode()).decode()).touch()
     assert list(redo_changed({SCORE: {"seed": 2}}.get, only_say=False)) == []
+
+
+def test_what_was_removed_with_its_folder_is_not_marked() -> None:
+    """Of a job whose outputs are partly gone the others are; of one whose outputs are all gone nothing is said."""
+    one, other = (Path(f"results/{folder}/a.csv") for folder in ("arm", "leg"))
+    for path in (one, other):
+        path.parent.mkdir()
+        path.write_text("1,2,3\n")
+    record_job("results/logs/score/finger.log", [one, FILES[0]], {"seed": 1})
+    record_job("results/logs/score/leg.log", [other], {"seed": 1})
+    for path in (one, other):
+        shutil.rmtree(path.parent)
+    said = list(redo_changed(lambda _: {"seed": 2}, only_say=False))
+    assert said == ["score finger was done with other params (seed); it is done anew"]
+    assert marked() == {urlsafe_b64encode(str(FILES[0]).encode()).decode()}
 
 
 def test_of_many_jobs_the_first_are_named() -> None:
