@@ -24,11 +24,13 @@ class Measured:
     gigabytes: float
 
 
-def measured_run(command: Sequence[str], stdout: IO[str] | None = None) -> Measured:
-    """Run `command` in the checkout, with the programs of this environment first in the path, and wait for it."""
+def measured_run(command: Sequence[str], stdout: IO[str] | None = None, folder: Path = HOUSE) -> Measured:
+    """Run `command` in `folder`, the checkout where left out, with the programs of this environment first in the path,
+    and wait for it.
+    """
     path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
     start = time.perf_counter()
-    process = subprocess.Popen(command, cwd=HOUSE, env=os.environ | {"PATH": path}, stdout=stdout)
+    process = subprocess.Popen(command, cwd=folder, env=os.environ | {"PATH": path}, stdout=stdout)
     _, status, used = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)  # already waited for
     wall = time.perf_counter() - start

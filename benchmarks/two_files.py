@@ -12,18 +12,15 @@ largest memory of each. The exit status is 1 where both take longer than `--minu
 from __future__ import annotations
 
 import argparse
-import os
 import shutil
 import sys
 import tempfile
-import time
 from pathlib import Path
-from subprocess import Popen
 
 import numpy as np
 import yaml
 
-from benchmarks.measured_run import HOUSE, Measured
+from benchmarks.measured_run import HOUSE, measured_run, snakemake
 from softkin.core.geometry.constant_curvature import from_arcs
 from softkin.core.samples import Array
 
@@ -92,16 +89,6 @@ def write_log(path: Path, commands: Array) -> None:
             file.write(f"{time_s:.5f};{';'.join(f'{value:.5f}' for value in row)}\n")
 
 
-def measured(folder: Path, *arguments: str) -> Measured:
-    """Run a module of Python in `folder` and measure it with all that it starts."""
-    start = time.perf_counter()
-    process = Popen([sys.executable, "-m", *arguments], cwd=folder)
-    _, status, used = os.wait4(process.pid, 0)
-    process.returncode = os.waitstatus_to_exitcode(status)  # already waited for
-    wall = time.perf_counter() - start
-    return Measured(process.returncode, wall, used.ru_utime + used.ru_stime, used.ru_maxrss / 1024**2)
-
-
 def measure(folder: Path, options: argparse.Namespace) -> bool:
     """Write the two files and do the two commands in `folder`; whether they stayed within the limit."""
     shutil.copytree(HOUSE / "config", folder / "config")
@@ -111,16 +98,16 @@ def measure(folder: Path, options: argparse.Namespace) -> bool:
     (folder / "few.yaml").write_text(yaml.safe_dump({"campaign": "two-files", "tuning": TRIALS}))
     target = [] if options.all else ["results/commands/calibrated_model.joblib"]
     steps = {
-        "new-robot": ["softkin.cli.new_robot", "--write", "--", "commands.csv", "take.csv"],
-        "run": [
-            *("snakemake", *target, "--cores", str(options.cores), "--quiet", "rules", "--nolock"),
-            *("--snakefile", str(HOUSE / "Snakefile"), "--directory", str(folder)),
+        "new-robot": [sys.executable, "-m", "softkin.cli.new_robot", "--write", "--", "commands.csv", "take.csv"],
+        "run": snakemake(
+            folder,
+            *(*target, "--cores", str(options.cores), "--quiet", "rules"),
             *("--config", "datasets=[commands]", "--configfile", "config/datasets.yaml", "few.yaml"),
-        ],
+        ),
     }
     seconds = 0.0
-    for name, arguments in steps.items():
-        run = measured(folder, *arguments)
+    for name, command in steps.items():
+        run = measured_run(command, folder=folder)
         seconds += run.wall
         print(f"{name}: {run.wall:.0f} s, {run.cpu:.0f} s of CPU, {run.gigabytes:.2f} GB at most, status {run.status}")
         if run.status:
@@ -139,7 +126,7 @@ def main() -> int:
     parser.add_argument("--all", action="store_true", help="up to the report and the store")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as temporary:
-        folder = options.keep or Path(temporary) / "project"
+        folder = (options.keep or Path(temporary) / "project").resolve()
         folder.mkdir(parents=True)
         return int(not measure(folder, options))
 
