@@ -15,7 +15,9 @@ files, params = snakemake.input, snakemake.params
 published = Path(snakemake.scriptdir).resolve().parents[1] / "resources" / "published"
 kinds = ("point", "markers", "intervals", "choice", "conditional", "alarms", "extrapolation", "spaces", "left_out")
 by_dataset = zip(*(files[kind] for kind in (*kinds, "description", "data_card")), strict=True)
-manifests = {dataset: [file for file in files.models if Path(file).parts[-3] == dataset] for dataset in params.sources}
+manifests = {dataset: [] for dataset in params.sources}
+for file in files.models:
+    manifests[Path(file).parts[-3]].append(file)
 parameters = {
     (dataset, *run): path
     for dataset, runs in params.searched.items()
