@@ -181,21 +181,18 @@ def check(
 
 @app.command(epilog="Example: softkin export results/finger/calibrated_model.joblib --to robot --level 0.9")
 @explained
+@of_a_model
 def export(
-    model: Model,
+    robot: Any,
     to: Annotated[Path, typer.Option(help="folder that the files go to")] = Path(),
     form: Annotated[list[Export] | None, typer.Option(help="python, c; both where left out")] = None,
     level: Annotated[list[float] | None, typer.Option(help="levels to store; 0.8, 0.9 and 0.95 where left out")] = None,
     name: Annotated[str | None, typer.Option(help="of the files and of what they define; default: the robot's")] = None,
-    sha256: Sha256 = None,
-    trust: Trust = False,
     as_json: AsJson = False,
 ) -> None:
     """A Python file that needs numpy alone and a C header: position, interval and `outside`, as the model says."""
     from softkin.cli.export_model import written
-    from softkin.uncertainty.loading import load
 
-    robot = load(model, sha256=sha256, trust=trust)
     files = written(robot, to, [str(one) for one in form or Export], level, name)
     print(json.dumps([str(path) for path in files]) if as_json else "\n".join(map(str, files)))
 
