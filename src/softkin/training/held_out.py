@@ -96,7 +96,7 @@ class HeldOut:
     robot: Robot
     seed: int
     threads: int
-    _kept: dict[tuple[str, str], tuple[Array, float]] = field(default_factory=dict)
+    _kept: dict[tuple[str, str], tuple[Array | None, float]] = field(default_factory=dict)
 
     def errors(self, params: Params, by: str) -> Iterator[float]:
         """Mean absolute error (mm) over moving coordinates, part by part of the preset `by`; standardisation, too, is
@@ -116,6 +116,7 @@ class HeldOut:
                 model = fitted_model(self.spec, settings, self.rows.take(fitted_rows))
             except SoftkinError as error:
                 logger.info("target space '%s' cannot be fitted on a part: %s", space, error)
+                self._kept[by, _key(params)] = None, float("inf")
                 yield float("inf")
                 return
             predictions.append(_of_moving(self.rows, model.predict(self.rows.take(scored_rows).inputs)))
@@ -131,7 +132,7 @@ class HeldOut:
         if key not in self._kept:
             for _ in self.errors(params, by):
                 pass
-        return self._kept.get(key, (None, float("inf")))
+        return self._kept[key]
 
 
 def truth_of(rows: Samples, parts: Folds) -> list[Array]:

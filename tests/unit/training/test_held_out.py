@@ -53,7 +53,13 @@ def test_a_study_sees_some_markers_the_last_and_all_that_never_move(max_markers:
     assert (np.diff(kept[-1, ::3]) > 0).all()
 
 
-def test_a_part_that_the_target_space_does_not_hold_has_an_infinite_error_and_is_the_last(tmp_path: Path) -> None:
+def refuse(*_: object) -> None:
+    raise AssertionError("it was fitted already")
+
+
+def test_a_part_that_the_target_space_does_not_hold_has_an_infinite_error_and_is_the_last(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     rows = bending_arm(40)
     behind = rows.positions.copy()
     behind[5] *= [0.0, 0.0, -1.0]
@@ -68,6 +74,8 @@ def test_a_part_that_the_target_space_does_not_hold_has_an_infinite_error_and_is
     assert len(errors("lr", {"target_space": "cartesian"}, samples, parts, robot)) == 3
     held_out = HeldOut(MODELS["lr"], samples, {TUNED: parts, OUTER: parts[:1]}, robot, 0, 1)
     assert held_out.predicted(curved, TUNED) == (None, np.inf)
+    assert held_out.predicted(curved, OUTER)[0] is not None
+    monkeypatch.setattr("softkin.training.held_out.fitted_model", refuse)
     write_held_out(held_out, curved, tmp_path / "held_out.npz")
     assert list(read_held_out(tmp_path / "held_out.npz")) == [OUTER], "a preset without a score has no predictions"
 
@@ -88,10 +96,6 @@ def test_what_is_predicted_on_the_way_is_kept_and_stored(tmp_path: Path, monkeyp
     rows, parts = parts_of(bending_arm(60, n_markers=2), SETTINGS, ROBOT)
     held_out = HeldOut(MODELS["lr"], rows, parts, ROBOT, 0, 1)
     by_part = {by: list(held_out.errors(LINE, by)) for by in parts}
-
-    def refuse(*_: object) -> None:
-        raise AssertionError("it was fitted already")
-
     monkeypatch.setattr("softkin.training.held_out.fitted_model", refuse)
     write_held_out(held_out, dict(reversed(LINE.items())), tmp_path / "held_out.npz")
     stored = read_held_out(tmp_path / "held_out.npz")
