@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from softkin.core.failed_parts import MODELS, of_part
 from softkin.core.files import replacing
 from softkin.core.metrics.point import paper_metrics
 from softkin.core.rows import sampled_rows
@@ -50,7 +51,8 @@ def learning_curve(table: str | Path, *, dataset: str, runs: Mapping[Run, Fitted
     rows = []
     for run, fitted in runs.items():
         key: dict[str, Any] = {"dataset": dataset, "subset": TEST, "model": run.model, "preset": run.preset}
-        rows += [key | row for row in _of_parts(fitted, train, test)]
+        with of_part(MODELS, run.model):
+            rows += [key | row for row in _of_parts(fitted, train, test)]
         columns = coordinate_columns(test.positions.shape[1] // 3)
         stored = pd.read_parquet(fitted.predictions)
         predicted = np.asarray(stored.loc[stored["subset"] == TEST, columns], dtype=np.float64)
