@@ -194,11 +194,12 @@ def main() -> None:
     warnings.filterwarnings("ignore")
     logging.disable(logging.CRITICAL)
     robots = [name for name, standin in STANDINS.items() if not standin.sessions]
+    faults = [*dict.fromkeys(["none", *arguments.faults])]  # picks are compared with those of the unspoilt robot
     seeds = range(arguments.first_seed, arguments.first_seed + arguments.seeds)
     rows = []
     for robot, seed in itertools.product(robots, seeds):
         samples, cuts = simulated(robot, arguments.rows, seed)
-        rows += [{"robot": robot} | row for fault in arguments.faults for row in cases(samples, cuts, fault, seed)]
+        rows += [{"robot": robot} | row for fault in faults for row in cases(samples, cuts, fault, seed)]
     frame = pd.DataFrame(rows)
     key = ["robot", "model", "seed", "score"]
     unspoilt = frame[frame["fault"] == "none"].set_index(key)["pick"]
@@ -210,7 +211,7 @@ def main() -> None:
         means = [float(np.exp(np.log(of[name]).mean())) for name in ("regular", "all")]
         rest = f"{of['other'].mean():>12.0%}{of['without'].max():>11.2f}"
         print(f"{fault:<18}{score:<13}{means[0]:>14.3f}{of['regular'].max():>9.2f}{means[1]:>10.3f}{rest}")
-    print(f"{len(frame) // len(SCORES) // len(arguments.faults)} cases per line")
+    print(f"{len(frame) // len(SCORES) // len(faults)} cases per line")
 
 
 if __name__ == "__main__":
