@@ -28,6 +28,7 @@ from softkin.uncertainty.joint_intervals import JointAnswers, JointIntervals
 from softkin.uncertainty.joint_region import JointRegion
 from softkin.uncertainty.new_session import labelled_errors, zero_spread
 from softkin.uncertainty.prepared import Prepared
+from softkin.uncertainty.promise import asked_levels
 from softkin.uncertainty.recalibration import Recalibration, recalibration
 
 
@@ -170,7 +171,7 @@ class CalibratedModel(Inverse):
         coordinates at once; 0 for constant coordinates.
         """
         half = np.zeros(self.known.truth.shape[1])
-        level = calls.level_of(confidence_level, self.dataset)
+        (level,) = asked_levels(self.joint.promise, [calls.level_of(confidence_level, self.dataset)])
         half[self._moving()] = self.scale * conformal_limit(self._scores(self._residuals()), level)
         return half
 
@@ -181,7 +182,7 @@ class CalibratedModel(Inverse):
         and of the whole pose (n_rows,). In a DataFrame, positions by the robot's own names are in its own unit.
 
         The paper's Eq. 4; with `rng` smoothed. Calling a pose anomalous when its p-value is at most alpha raises a
-        false alarm in at most a share alpha of cases.
+        false alarm in at most a share alpha of cases, where rows are exchangeable; of blocks, too, each row counts.
         """
         inputs = self._checked(commands)
         calls.check_generator(rng, self.dataset)

@@ -20,6 +20,7 @@ from softkin.uncertainty.answers import index_of
 from softkin.uncertainty.command_search import CommandSearch
 from softkin.uncertainty.conformal import conformal_limit
 from softkin.uncertainty.control_loop import State
+from softkin.uncertainty.promise import asked_levels
 from softkin.uncertainty.targets import checked_step, checked_tolerance, marker_of, target_rows
 
 REACHABLE, NEAREST, OUTSIDE = "reachable", "nearest", "outside"
@@ -216,7 +217,7 @@ class _Wish:
         within, radius, probability = (np.empty(len(off)) for _ in range(3))
         promise = self.robot.joint.promise
         by_block = promise is not None and promise.n_blocks > 1
-        level = promise.asked(self.level) if by_block else self.level
+        (level,) = asked_levels(promise, [self.level])
         n_places = (promise.n_blocks + 1) * promise.n_rows if by_block else len(self.errors) + 1
         for row, stretch in enumerate(self._stretch(intervals, positions, level)):
             distances = np.linalg.norm(off[row] + self.errors * stretch, axis=1)

@@ -19,6 +19,7 @@ from softkin.uncertainty.beyond import Beyond
 from softkin.uncertainty.calibration_data import PointCalibration
 from softkin.uncertainty.conformal import conformal_limits
 from softkin.uncertainty.new_session import unseen_zero
+from softkin.uncertainty.promise import asked_levels
 from softkin.uncertainty.recalibration import PRIOR_POSES
 
 
@@ -153,8 +154,7 @@ class JointAnswers:
         """Size (n_levels, n_rows) of the region: the conformal limit, where blocks are exchangeable at the level that
         is promised of blocks; in extrapolation that of rolling shells.
         """
-        promise = self.robot.joint.promise
-        levels = levels if promise is None else tuple(map(promise.asked, levels))
+        levels = asked_levels(self.robot.joint.promise, levels)
         limits = conformal_limits(self.robot.joint.scores[:, None], levels)
         size = np.broadcast_to(limits, (len(levels), len(inputs)))
         outside = np.asarray(self.robot.is_outside(inputs)) if self.sizes.has_shells else np.zeros(0, dtype=bool)

@@ -27,6 +27,7 @@ from softkin.uncertainty.plain.describe_robot import (
     place_numbers,
 )
 from softkin.uncertainty.plain.robot import PlainRobot
+from softkin.uncertainty.promise import asked_levels
 
 Levels = tuple[float, ...]
 #: Tables of so many choices of levels are kept.
@@ -127,14 +128,14 @@ class Prepared:
         """
         robot = self.robot
         table: Node = {"sides": None, "zero": None, "limits": None, "growth_limits": []}
-        errors = self.known.truth - self.known.calibration
+        errors, asked = self.known.truth - self.known.calibration, asked_levels(robot.joint.promise, levels)
         if robot.recalibration is not None:
-            half = robot.recalibration.half_widths(errors, levels)[:, 0]
+            half = robot.recalibration.half_widths(errors, asked)[:, 0]
             table["sides"] = np.stack([-half, half], axis=-1)
         elif robot.method.scaled is not None:
             table |= {"sides": self._scaled.sides(levels), "zero": zero_of_unseen(robot.estimator, levels)}
         if self.beyond.has_shells:
-            table["limits"], table["growth_limits"] = self.beyond.limits(levels)
+            table["limits"], table["growth_limits"] = self.beyond.limits(asked)
         return table
 
     def _by_method(self, inputs: Array, levels: Levels, predicted: Array) -> Array:

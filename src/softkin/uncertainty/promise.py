@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from softkin.core.samples import Array, Samples
 from softkin.uncertainty.conformal import engine_level, two_sided_rank
-from softkin.uncertainty.intervals.spec import MARGINAL, NO_GUARANTEE, IntervalMethod
+from softkin.uncertainty.intervals.spec import MARGINAL, NO_GUARANTEE, IntervalMethod, Scaled
 
 #: Guarantee of an interval that is calibrated on blocks: marginal coverage of a row of a new block.
 BY_BLOCK = "marginal, by block"
@@ -94,6 +94,15 @@ def calibration_set(validation: Samples) -> tuple[Samples, NDArray[np.intp], Pro
     return validation.take(rows), rows, promise
 
 
+def asked_levels(
+    promise: Promise | None, confidence_levels: Sequence[float], two_sided: bool = False
+) -> tuple[float, ...]:
+    """The levels that what counts rows is asked for, as `Promise.asked`; where rows are exchangeable the same."""
+    if promise is None:
+        return tuple(confidence_levels)
+    return tuple(promise.asked(level, two_sided) for level in confidence_levels)
+
+
 def promised(method: IntervalMethod[Any], promise: Promise | None, level: float = 0.9) -> IntervalMethod[Any]:
     """The method, its levels asked for as the promise needs; its `guarantee` is that at `level`. A method that is
     calibrated on no row of `validation` stays.
@@ -103,8 +112,10 @@ def promised(method: IntervalMethod[Any], promise: Promise | None, level: float 
     guarantee = promise.guarantee(method, level)
     if method.guarantee != MARGINAL or method.calibrated_on.needs_refits:
         return replace(method, guarantee=guarantee)
-    asked = partial(_asked, method.intervals, promise, method.rank is two_sided_rank)
-    return replace(method, intervals=asked, guarantee=guarantee)
+    two_sided = method.rank is two_sided_rank
+    asked = partial(_asked, method.intervals, promise, two_sided)
+    scaled = None if method.scaled is None else partial(_scaled, method.scaled, promise, two_sided)
+    return replace(method, intervals=asked, scaled=scaled, guarantee=guarantee)
 
 
 def promised_methods(
@@ -122,9 +133,21 @@ def _asked(
     confidence_levels: Sequence[float],
 ) -> Array:
     """Intervals (n_levels, n_rows, n_coordinates, 2) at the levels that the promise asks for."""
-    asked = [promise.asked(level, two_sided) for level in confidence_levels]
     if data.is_for_extrapolation:  # its in-domain bounds are there for each level
-        return intervals(data, asked)
+        return intervals(data, asked_levels(promise, confidence_levels, two_sided))
+    return _each_once(partial(intervals, data), promise, two_sided, confidence_levels)
+
+
+def _scaled(scaled: Callable[[Any], Scaled], promise: Promise, two_sided: bool, data: Any) -> Scaled:
+    """The same in plain numbers, with the sides of the levels that the promise asks for."""
+    by_row = scaled(data)
+    return replace(by_row, sides=partial(_each_once, by_row.sides, promise, two_sided))
+
+
+def _each_once(
+    bounds: Callable[[Sequence[float]], Array], promise: Promise, two_sided: bool, confidence_levels: Sequence[float]
+) -> Array:
+    """Bounds (n_levels, ...) at the levels that the promise asks for, each of which is worked out once."""
+    asked = asked_levels(promise, confidence_levels, two_sided)
     distinct = sorted(set(asked))
-    bounds = intervals(data, distinct)
-    return np.asarray(bounds[[distinct.index(level) for level in asked]])
+    return np.asarray(bounds(distinct)[[distinct.index(level) for level in asked]])

@@ -201,4 +201,5 @@ def test_where_blocks_are_exchangeable_the_size_counts_them() -> None:
         size = np.ptp(sides, axis=1)[moving] / 2 / blocks.joint.shape.half_widths
         rank = int(np.ceil(round(level * (n // 2 + 1) * 2, 9)))
         np.testing.assert_allclose(size, scores[rank - 1])
+        np.testing.assert_allclose(blocks.box(level), np.ptp(sides, axis=1) / 2)
         assert rank > np.ceil(level * (n + 1)) - 1

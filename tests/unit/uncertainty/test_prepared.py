@@ -13,6 +13,7 @@ from softkin.uncertainty import beyond, error_growth
 from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.calibration_data import ShellCalibration, SpreadCalibration
 from softkin.uncertainty.intervals import in_domain_and_extrapolation
+from softkin.uncertainty.promise import Promise, promised
 from tests.conftest import bending_arm
 from tests.unit.tracking.robots import robot as gaussian_process
 from tests.unit.tracking.robots import with_shells
@@ -27,8 +28,15 @@ def of_gaussian_process() -> CalibratedModel:
     return replace(model, norm=command_norm(model.train.commands, standardised=False).of)
 
 
+def by_block(robot: CalibratedModel) -> CalibratedModel:
+    """The same, calibrated on twelve blocks of five rows."""
+    promise = Promise(12, 5)
+    return replace(robot, method=promised(robot.method, promise), joint=replace(robot.joint, promise=promise))
+
+
 ROBOTS = {method: small_robot(method, shells=True) for method in ("scp_mapie", "scp_crepes", "scp_distance", "cps")}
 ROBOTS |= {"scp_spread": of_gaussian_process(), "no shells": small_robot()}
+ROBOTS |= {f"{name}, by block": by_block(ROBOTS[name]) for name in ("scp_crepes", "scp_mapie", "cps", "no shells")}
 
 
 def slow_intervals(robot: CalibratedModel) -> np.ndarray:
@@ -41,7 +49,7 @@ def slow_intervals(robot: CalibratedModel) -> np.ndarray:
         return bounds
     has_spread = robot.method.calibrated_on.has_spread
     shells = ShellCalibration(data, robot.shells, robot.norm, bounds, has_spread)
-    return in_domain_and_extrapolation.intervals(shells, LEVELS)
+    return promised(in_domain_and_extrapolation.METHOD, robot.joint.promise).intervals(shells, LEVELS)
 
 
 @pytest.mark.parametrize("name", ROBOTS)
