@@ -89,17 +89,25 @@ def load_model(path: str | Path) -> Any:
         ResultError: no job has recorded the file, or its content is another.
     """
     content = Path(path).read_bytes()
-    expected = recorded_sha256(path)
-    if expected is None or hashlib.sha256(content).hexdigest() != expected:
-        what = "changed since softkin wrote it" if expected else "softkin has no record that it wrote it"
+    check_recorded(path, hashlib.sha256(content).hexdigest(), recorded_sha256(path))
+    import joblib
+
+    return joblib.load(io.BytesIO(content))
+
+
+def check_recorded(path: str | Path, digest: str, recorded: str | None) -> None:
+    """Refuse a file that is to be unpickled, unless its hash (hex) is the one that is recorded.
+
+    Raises:
+        ResultError: it is another, or no job has recorded the file.
+    """
+    if digest != recorded:
+        what = "changed since softkin wrote it" if recorded else "softkin has no record that it wrote it"
         raise ResultError(
             f"{what}; it is not loaded, since loading runs what is in it",
             where=path,
             fix="delete it and run again",
         )
-    import joblib
-
-    return joblib.load(io.BytesIO(content))
 
 
 def damages(results: str | Path, *, thorough: bool) -> Iterator[Damage]:

@@ -12,7 +12,7 @@ from typing import Any
 import joblib
 
 from softkin.core.errors import ResultError
-from softkin.core.job_records import load_model, recorded_sha256
+from softkin.core.job_records import check_recorded, recorded_sha256
 from softkin.uncertainty.calibrated_model import CalibratedModel
 
 #: What unpickling raises where classes have moved, or the file is none or cut off.
@@ -45,13 +45,15 @@ def load(path: str | Path, *, sha256: str | None = None, trust: bool = False) ->
             fix="get the file again from where the hash came from",
         )
     recorded = recorded_sha256(file)
-    if recorded is None and sha256 is None and not trust:
+    if recorded is not None:
+        check_recorded(path, digest, recorded)
+    elif sha256 is None and not trust:
         raise ResultError(
             "no record beside it says who wrote it; it is not loaded, since loading runs what is in it",
             where=path,
             fix="pass the sha256 that its maker names, or trust=True if you made it yourself",
         )
-    robot = _unpickled(file, content, is_recorded=recorded is not None)
+    robot = _unpickled(file, content)
     if not isinstance(robot, CalibratedModel):
         raise ResultError(
             f"it holds no calibrated model, but a {type(robot).__name__}",
@@ -62,10 +64,10 @@ def load(path: str | Path, *, sha256: str | None = None, trust: bool = False) ->
     return replace(robot, about={**robot.about, "date": made})
 
 
-def _unpickled(file: Path, content: bytes, *, is_recorded: bool) -> Any:
+def _unpickled(file: Path, content: bytes) -> Any:
     """What is in a file; it was written by this version of softkin."""
     try:
-        return load_model(file) if is_recorded else joblib.load(io.BytesIO(content))
+        return joblib.load(io.BytesIO(content))
     except ResultError as error:
         raise error if error.where else error.within(str(file)) from error
     except UNREADABLE as error:

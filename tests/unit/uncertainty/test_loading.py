@@ -43,6 +43,19 @@ def test_a_recorded_model_is_loaded_and_answers_as_before(model: Path) -> None:
     assert load(model, sha256=hash_of(model)).dataset == "arm"
 
 
+def test_what_is_unpickled_are_the_bytes_that_were_hashed(model: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    reads: list[Path] = []
+
+    def read(path: Path) -> bytes:
+        reads.append(path)
+        with path.open("rb") as file:
+            return file.read()
+
+    monkeypatch.setattr(Path, "read_bytes", read)
+    load(model)
+    assert reads == [model]
+
+
 def test_a_model_from_elsewhere_needs_its_hash_or_trust(model: Path) -> None:
     taken = Path("taken.joblib")
     taken.write_bytes(model.read_bytes())
