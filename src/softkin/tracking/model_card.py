@@ -14,7 +14,8 @@ from softkin.data.audit.findings import counted
 from softkin.models.estimators.weighted_mean import composition
 from softkin.reporting.tables.numbers import assessed_text, number_text, share_text
 from softkin.uncertainty.calibrated_model import CalibratedModel
-from softkin.uncertainty.intervals.spec import MARGINAL
+from softkin.uncertainty.conformal import two_sided_rank
+from softkin.uncertainty.intervals.spec import MARGINAL, NO_GUARANTEE
 from softkin.uncertainty.promise import BY_BLOCK
 
 #: The warning at the top of the card, by the origin of the data.
@@ -91,7 +92,7 @@ def model_card(
         cells += [assessed_text(interval["coverage"], assessable), number_text(interval["mean_width_mm"])]
         cells.append(assessed_text(interval["joint_coverage"], assessable))
         lines.append(f"| {subset} | {' | '.join(cells)} |")
-    guarantee = _guarantee(model, percent)
+    guarantee = _guarantee(model, level)
     lines += ["", "## Guarantee", "", guarantee, *_of_whole_poses(model, level)]
     lines += [EXTRAPOLATION_NOTES[bool(model.shells)], ""]
     if (failures := model.failures) is not None:
@@ -138,10 +139,12 @@ def _of_whole_poses(model: CalibratedModel, level: float) -> list[str]:
     return [WHOLE_POSES.format(level=share_text(level, 0), kind=region.shape.kind)]
 
 
-def _guarantee(model: CalibratedModel, level: str) -> str:
-    """What the intervals of the model promise."""
-    kind = model.method.guarantee
+def _guarantee(model: CalibratedModel, level: float) -> str:
+    """What the intervals of the model promise at the level; `method.guarantee` is that of 90 %."""
+    kind, promise, percent = model.method.guarantee, model.joint.promise, share_text(level, 0)
+    if kind == BY_BLOCK and promise is not None and not promise.holds(level, model.method.rank is two_sided_rank):
+        return f"Intervals by this method have {NO_GUARANTEE} at {percent}: too few blocks of rows are held out."
     if kind in GUARANTEES:
-        return GUARANTEES[kind].format(level=level, n=len(model.known.truth))
+        return GUARANTEES[kind].format(level=percent, n=len(model.known.truth))
     why = ": too few blocks of rows are held out" if "block" in kind else ""
     return f"Intervals by this method have {kind}{why}."

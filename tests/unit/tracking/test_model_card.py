@@ -7,11 +7,18 @@ import pytest
 
 from softkin.tracking.model_card import model_card
 from softkin.uncertainty.calibrated_model import CalibratedModel
+from softkin.uncertainty.promise import Promise, promised
 from tests.unit.tracking.robots import DESCRIPTION, LEAK, interval_metrics, point_metrics, robot, with_shells
 from tests.unit.uncertainty.test_failures import found
 
 
-def card(model: CalibratedModel | None = None, caution: str | None = None, n_commands: int = 40, **changed: Any) -> str:
+def card(
+    model: CalibratedModel | None = None,
+    caution: str | None = None,
+    n_commands: int = 40,
+    level: float = 0.9,
+    **changed: Any,
+) -> str:
     description = DESCRIPTION | {"findings": [LEAK]} | changed
     metrics = interval_metrics().assign(n_commands=n_commands)
     metrics = metrics[metrics["confidence_level"] == 0.9].set_index("subset")
@@ -22,7 +29,7 @@ def card(model: CalibratedModel | None = None, caution: str | None = None, n_com
         description=description,
         scores=point_metrics().set_index("subset"),
         intervals=means.assign(joint_coverage=joint["coverage"], joint_size_mm=joint["size_mm"]),
-        level=0.9,
+        level=level,
         caution=caution,
     )
 
@@ -86,6 +93,16 @@ def test_a_method_without_a_guarantee_has_none() -> None:
     assert "Intervals by this method have no guarantee." in text
     assert "An interval at" not in text
     assert text.count("in at least") == 1  # joint intervals keep theirs
+
+
+def test_a_guarantee_by_block_is_that_of_the_level_that_is_shown() -> None:
+    """Twelve blocks promise 90 % and not 95 %."""
+    plain, promise = robot(), Promise(12, 5)
+    model = replace(plain, method=promised(plain.method, promise), joint=replace(plain.joint, promise=promise))
+    assert "in at least 90 % of cases in a new block" in card(model)
+    text = card(model, level=0.95)
+    assert "have no guarantee at 95 %: too few blocks of rows are held out." in text
+    assert "at least 95 %" not in text
 
 
 def test_failures_that_commands_foretell_are_told() -> None:
