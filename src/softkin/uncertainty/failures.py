@@ -7,6 +7,7 @@ commands decide whether poses fail, `train` tells the probability; where they do
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -40,7 +41,19 @@ class FailureClass:
 
     def probability(self, commands: Array) -> Array:
         """Probability (n_rows,) that the pose at each command (n_rows, n_commands) fails."""
-        return np.asarray(self.classifier.predict_proba(commands)[:, 1])
+        tree, of_nodes = self._of_nodes
+        with np.errstate(over="ignore"):  # the tree compares numbers of 32 bits
+            rows = commands.astype(np.float32)
+        return np.asarray(of_nodes[tree.apply(rows)])
+
+    @cached_property
+    def _of_nodes(self) -> tuple[Any, Array]:
+        """The tree, and the probability (n_nodes,) in each of its nodes. The classifier answers the same, but takes ten
+        times as long for one command as all else.
+        """
+        (fitted,) = self.classifier.calibrated_classifiers_
+        tree = fitted.estimator.tree_
+        return tree, np.asarray(fitted.calibrators[0].predict(tree.value[:, 0, 1]))
 
     def may_fail(self, commands: Array, confidence_levels: Any) -> NDArray[np.bool_]:
         """Where (n_levels, n_rows) no interval around the prediction can hold at its level, since the pose fails with

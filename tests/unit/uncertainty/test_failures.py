@@ -58,6 +58,19 @@ def test_the_probability_is_that_of_new_rows() -> None:
     assert found().n_failed == failing(900, 0)[1].sum()
 
 
+def test_it_is_the_probability_of_the_classifier_without_its_checks_of_each_row() -> None:
+    commands = bending_arm(500, seed=8).commands
+    said = found().classifier.predict_proba(commands)[:, 1]
+    np.testing.assert_array_equal(found().probability(commands), said)
+    np.testing.assert_array_equal([found().probability(row)[0] for row in np.split(commands, 500)], said)
+    assert len(np.unique(said)) > 1
+
+
+def test_a_command_that_32_bits_do_not_hold_is_answered() -> None:
+    far: Any = robot().failure_probability([[1e60, 0.0], [1e9, 0.0]])
+    assert far[0] == far[1]
+
+
 def test_where_it_may_fail_is_the_slab_and_little_else() -> None:
     commands = bending_arm(6000, seed=2).commands
     (flagged,) = found().may_fail(commands, [0.9])
