@@ -180,10 +180,9 @@ class _Wish:
                     where=self.robot.dataset,
                     fix="allow a larger step, or pass a last command that is nearer to those of train",
                 )
-        here = copy(state)
 
         def position(commands: Array) -> Array:
-            return np.asarray(self.robot._prepared.predicted_of_few(here.next_inputs(commands)))[:, self.own]
+            return np.asarray(self.robot._prepared.predicted_of_few(state.next_inputs(commands)))[:, self.own]
 
         return CommandSearch(position, self.robot.is_outside, lower, upper, self.extent_mm, self.close_mm)
 
