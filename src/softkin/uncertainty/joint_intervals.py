@@ -34,7 +34,8 @@ class JointIntervals:
     never seen regions are boxes. Of one level given as a number there is no axis of levels. To a DataFrame, centre and
     bounds are DataFrames as of `intervals`. Where the pose may fail, the region is the box of its bounds, which hold
     the failed poses of `train`, too. `sizes_mm` (n_levels, n_rows) is the side of a cube of the same volume, in all
-    moving coordinates together.
+    moving coordinates together. At a level for which the calibration set has too few rows a region is infinite; where
+    it has too few blocks, a region reaches to the largest error and promises nothing.
     """
 
     kind: str
