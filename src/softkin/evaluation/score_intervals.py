@@ -30,7 +30,7 @@ from softkin.core.runs import Run
 from softkin.core.samples import SUBSETS, TEST, Array, coordinate_columns, informative_coordinates, measured_coordinates
 from softkin.data.audit.gross_rows import gross_rows
 from softkin.data.table import read_subset
-from softkin.evaluation.score_regions import region_rows
+from softkin.evaluation.score_regions import covered_share, region_rows
 from softkin.uncertainty.calibration_data import CalibrationData, QuantileCalibration
 from softkin.uncertainty.intervals.spec import MARGINAL, NO_GUARANTEE, IntervalMethod
 from softkin.uncertainty.regions.spec import RegionMethod
@@ -85,10 +85,9 @@ def score_intervals(
             which cannot be: files of different runs were mixed.
     """
     samples = {subset: read_subset(table, subset) for subset in SUBSETS}
-    positions = {subset: rows.positions for subset, rows in samples.items()}
     gross = gross_rows(samples)
     n_commands = {subset: int(row_groups(rows.commands).max()) + 1 for subset, rows in samples.items()}
-    truth = {subset: positions[subset] for subset in INTERVAL_SUBSETS}
+    truth = {subset: samples[subset].positions for subset in INTERVAL_SUBSETS}
     informative = informative_coordinates(outputs.train.positions)
     rows: list[dict[str, Any]] = []
     for name, method in methods.items():
@@ -109,7 +108,7 @@ def score_intervals(
                     key = {"dataset": dataset, "subset": subset, "model": run.model, "preset": run.preset}
                     key |= {"interval_method": name}
                     rows += [key | row for row in _rows(setting, bounds[place], crossings[place], scores[subset])]
-    rows += [{"dataset": dataset, **row} for row in region_rows(outputs, positions, regions)]
+    rows += [{"dataset": dataset, **row} for row in region_rows(outputs, samples, regions)]
     rows += [{"dataset": dataset, **row} for row in joint]
     with replacing(output) as temporary:
         pd.DataFrame(rows).to_csv(temporary, index=False)
@@ -172,7 +171,7 @@ def _rows(setting: _Setting, bounds: Array, crossings: NDArray[np.bool_], scores
 
     def averages(mask: Any) -> dict[str, Any]:
         return {
-            "coverage": _share(is_covered[:, mask], setting.block),
+            "coverage": covered_share(is_covered[:, mask], setting.block),
             "mean_width_mm": width[:, mask].mean(),
             "winkler_mm": winkler[:, mask].mean(),
             "winkler_without_gross_mm": regular[:, mask].mean(),
@@ -191,7 +190,7 @@ def _rows(setting: _Setting, bounds: Array, crossings: NDArray[np.bool_], scores
     yield {
         **common,
         "coordinate": "joint",
-        "coverage": _share(together, setting.block),
+        "coverage": covered_share(together, setting.block),
         "coverage_low": low,
         "coverage_high": high,
         "size_mm": geometric_size(width[:, setting.informative]).mean(),
@@ -199,13 +198,6 @@ def _rows(setting: _Setting, bounds: Array, crossings: NDArray[np.bool_], scores
         "crossing_share": crossings[:, setting.informative].any(axis=1).mean(),
         "guarantee": NO_GUARANTEE,
     }
-
-
-def _share(is_covered: NDArray[np.bool_], block: NDArray[np.int64] | None) -> float:
-    """Share of what is covered (n_rows, ...); of held-out blocks their mean, whatever rows each has."""
-    if block is None:
-        return float(is_covered.mean())
-    return float(np.mean([is_covered[block == number].mean() for number in np.unique(block)]))
 
 
 def _check_winkler(setting: _Setting, bounds: Array, winkler: Array) -> None:

@@ -29,7 +29,9 @@ def joint_rows(
                 "model": robot.spec.name,
                 "preset": robot.preset,
                 "interval_method": JOINT_INTERVALS,
-                **coverage_row(subset, level, held[place], len(robot.joint.scores), promise=robot.joint.promise),
+                **coverage_row(
+                    subset, level, held[place], len(robot.joint.scores), rows.block, promise=robot.joint.promise
+                ),
                 "infinite_share": float(np.isinf(sizes[place]).mean()),
                 "size_mm": float(np.median(sizes[place])),
                 "shape": regions.kind,

@@ -14,7 +14,7 @@ from softkin.core.failed_parts import REGIONS, of_part
 from softkin.core.files import replacing
 from softkin.core.metrics.interval import clopper_pearson, coverage_band, coverage_p_value
 from softkin.core.runs import Run
-from softkin.core.samples import TEST, TRAIN, VALIDATION, Array, informative_coordinates
+from softkin.core.samples import TEST, TRAIN, VALIDATION, Array, Samples, informative_coordinates
 from softkin.uncertainty.conformal import conformal_rank, error_scale, joint_scores, p_values
 from softkin.uncertainty.intervals.spec import NO_GUARANTEE
 from softkin.uncertainty.promise import Promise
@@ -36,15 +36,17 @@ def moving_residuals(outputs: StoredOutputs, truth: Mapping[str, Array]) -> Iter
 
 
 def region_rows(
-    outputs: StoredOutputs, truth: Mapping[str, Array], methods: Mapping[str, RegionMethod]
+    outputs: StoredOutputs, samples: Mapping[str, Samples], methods: Mapping[str, RegionMethod]
 ) -> Iterator[dict[str, Any]]:
-    """A row of interval_metrics.csv per run, region, level and subset; `truth` is subset -> true positions, of all."""
+    """A row of interval_metrics.csv per run, region, level and subset; `samples` is subset -> rows, of all."""
+    truth = {subset: rows.positions for subset, rows in samples.items()}
     markers = _markers(truth)
+    blocks = {subset: rows.block for subset, rows in samples.items()}
     for (model, preset), residuals in moving_residuals(outputs, truth):
         for name, method in methods.items():
             for level in outputs.levels:
                 with of_part(REGIONS, name):
-                    rows = list(_coverages(method, residuals, markers, level, outputs.promise))
+                    rows = list(_coverages(method, residuals, markers, level, blocks, outputs.promise))
                 yield from ({"model": model, "preset": preset, "interval_method": name, **row} for row in rows)
 
 
@@ -79,14 +81,16 @@ def _coverages(
     residuals: Mapping[str, Array],
     markers: NDArray[np.intp],
     level: float,
-    promise: Promise | None = None,
+    blocks: Mapping[str, NDArray[np.int64] | None],
+    promise: Promise | None,
 ) -> Iterator[dict[str, Any]]:
     """A row per subset of one region at one level; with a `promise` it is calibrated on blocks."""
     asked = level if promise is None else promise.asked(level)
     region = method.region(residuals[TRAIN], residuals[VALIDATION], markers, asked)
     kind = JOINT if method.is_exact else AT_LEAST
     for subset in INTERVAL_SUBSETS:
-        row = coverage_row(subset, level, region.covers(residuals[subset]), len(residuals[VALIDATION]), kind, promise)
+        is_covered, n_calibration = region.covers(residuals[subset]), len(residuals[VALIDATION])
+        row = coverage_row(subset, level, is_covered, n_calibration, blocks[subset], kind, promise)
         yield row | {"infinite_share": float(np.isinf(region.size_mm)), "size_mm": region.size_mm}
 
 
@@ -95,6 +99,7 @@ def coverage_row(
     level: float,
     is_covered: NDArray[np.bool_],
     n_calibration: int,
+    block: NDArray[np.int64] | None,
     guarantee: str = JOINT,
     promise: Promise | None = None,
 ) -> dict[str, Any]:
@@ -105,6 +110,7 @@ def coverage_row(
         level: of the region.
         is_covered: whether it holds each row (n_rows,).
         n_calibration: rows that it is calibrated on.
+        block: the held-out block of each row (n_rows,); None where there are none.
         guarantee: on rows of `test`, where rows are exchangeable.
         promise: of blocks, where these are exchangeable; None where rows are.
     """
@@ -122,13 +128,20 @@ def coverage_row(
         "n_calibration": n_calibration,
         "n_rows": n_rows,
         "coordinate": "joint",
-        "coverage": n_covered / n_rows,
+        "coverage": covered_share(is_covered, block),
         "crossing_share": 0.0,
         "guarantee": promised if subset == TEST else NO_GUARANTEE,
         "coverage_low": low,
         "coverage_high": high,
         "coverage_p_value": p_value,
     }
+
+
+def covered_share(is_covered: NDArray[np.bool_], block: NDArray[np.int64] | None) -> float:
+    """Share of what is covered (n_rows, ...); of held-out blocks their mean, whatever rows each has."""
+    if block is None:
+        return float(is_covered.mean())
+    return float(np.mean([is_covered[block == number].mean() for number in np.unique(block)]))
 
 
 def alarm_rates(

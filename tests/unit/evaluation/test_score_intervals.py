@@ -10,7 +10,7 @@ from softkin.core.bounds import bounds_frame
 from softkin.core.errors import DataError
 from softkin.core.runs import Run
 from softkin.data.table import read_subset, to_table, write_table
-from softkin.evaluation.score_intervals import _share, score_intervals
+from softkin.evaluation.score_intervals import score_intervals
 from softkin.uncertainty.calibrate import calibrate
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from softkin.uncertainty.intervals.spec import MARGINAL, NO_GUARANTEE
@@ -216,9 +216,3 @@ def test_what_blocks_promise_stands_beside_the_coverage(table: Path, tmp_path: P
     assert mean.to_dict() == {"test": of_90, "extrapolation": "no guarantee"}
     region = metrics[(metrics["interval_method"] == "joint_box") & (metrics["subset"] == "test")]
     assert region["guarantee"].tolist() == ["joint, by block" if n_blocks == 12 else of_90]
-
-
-def test_the_coverage_of_held_out_blocks_is_their_mean() -> None:
-    is_covered = np.array([True, True, True, False])
-    assert _share(is_covered, None) == 0.75
-    assert _share(is_covered, np.array([4, 4, 4, 7])) == 0.5

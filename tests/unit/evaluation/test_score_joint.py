@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -29,6 +31,14 @@ def test_a_row_per_level_and_subset_says_what_the_model_answers() -> None:
     assert test["coverage"].between(test["coverage_low"], test["coverage_high"]).all()
     assert test["coverage_p_value"].between(0.01, 1).all()
     assert rows.loc["extrapolation"]["size_mm"].min() > test["size_mm"].max()
+
+
+def test_blocks_of_any_size_count_alike() -> None:
+    robot, rows = small_robot(), SAMPLES["test"]
+    held = np.asarray(robot.joint_intervals(rows.commands, 0.8).contains(rows.positions))
+    in_blocks = replace(rows, block=np.where(held, 0, 1))
+    assert not held.all()
+    assert [row["coverage"] for row in joint_rows(robot, {"test": in_blocks}, [0.8])] == [0.5]
 
 
 def test_too_few_calibration_rows_are_said_to_be_infinite() -> None:

@@ -9,7 +9,8 @@ import pytest
 from softkin.core.runs import Run
 from softkin.core.samples import EXTRAPOLATION, SUBSETS, TEST, TRAIN, VALIDATION, Array
 from softkin.data.table import read_subset
-from softkin.evaluation.score_regions import alarm_rates, region_rows, score_alarms
+from softkin.evaluation.score_regions import alarm_rates, coverage_row, covered_share, region_rows, score_alarms
+from softkin.uncertainty.promise import Promise
 from softkin.uncertainty.regions import REGION_METHODS
 from softkin.uncertainty.stored_outputs import StoredOutputs
 
@@ -54,8 +55,8 @@ def outputs(table: Path, tmp_path: Path) -> StoredOutputs:
 
 
 def test_a_row_for_every_region_level_and_subset(table: Path, outputs: StoredOutputs) -> None:
-    truth = {subset: read_subset(table, subset).positions for subset in SUBSETS}
-    rows = pd.DataFrame(region_rows(outputs, truth, REGION_METHODS))
+    samples = {subset: read_subset(table, subset) for subset in SUBSETS}
+    rows = pd.DataFrame(region_rows(outputs, samples, REGION_METHODS))
     assert len(rows) == len(REGION_METHODS) * 2 * 2
     assert set(rows["coordinate"]) == {"joint"}
     far = rows[rows["subset"] == "extrapolation"]
@@ -65,6 +66,18 @@ def test_a_row_for_every_region_level_and_subset(table: Path, outputs: StoredOut
     assert set(near["guarantee"]) == {"joint"}
     assert near["coverage_p_value"].between(0, 1).all()
     assert near["coverage"].between(near["coverage_low"], near["coverage_high"]).all()
+
+
+def test_the_coverage_of_held_out_blocks_is_their_mean() -> None:
+    is_covered = np.array([True, True, True, False])
+    assert covered_share(is_covered, None) == 0.75
+    assert covered_share(is_covered, np.array([4, 4, 4, 7])) == 0.5
+
+
+def test_a_region_covers_blocks_as_often_as_their_mean() -> None:
+    blocks = np.repeat([0, 1], [6, 2])
+    row = coverage_row(TEST, 0.9, np.repeat([True, False], [6, 2]), 40, blocks, promise=Promise(12, 5))
+    assert (row["coverage"], row["guarantee"]) == (0.5, "joint, by block")
 
 
 def test_alarms_are_written(table: Path, outputs: StoredOutputs, tmp_path: Path) -> None:
