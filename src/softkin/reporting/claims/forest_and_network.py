@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from functools import partial
 
 from softkin.core.runs import SEARCHED
 from softkin.models.paper_groups import BOOSTED, FOREST, NETWORK
@@ -12,32 +12,26 @@ from softkin.reporting.claims.spec import Case, ClaimSpec
 from softkin.reporting.tables.numbers import number_text
 
 
-def _forest_worse(measured: Measured) -> Iterator[Case]:
-    def compare(errors: dict[str, float]) -> tuple[bool, str]:
-        ratio = errors[FOREST] / least(errors, BOOSTED)
-        return ratio >= FAR_APART, f"x {number_text(ratio)}"
-
-    yield from of_errors(measured, compare, models=(FOREST, *BOOSTED))
+def _forest_worse(errors: dict[str, float]) -> tuple[bool, str]:
+    ratio = errors[FOREST] / least(errors, BOOSTED)
+    return ratio >= FAR_APART, f"x {number_text(ratio)}"
 
 
 def _forest_unregularised(measured: Measured) -> list[Case]:
     """Were it the want of regularization, which no setting of a forest adds, searched settings would not help."""
-    return [case for case in _forest_worse(measured) if case.setting in SEARCHED]
+    return [case for case in FOREST_WORSE.rule(measured) if case.setting in SEARCHED]
 
 
-def _network_moderate(measured: Measured) -> Iterator[Case]:
-    def compare(errors: dict[str, float]) -> tuple[bool, str]:
-        rank = ranks(errors)[NETWORK]
-        return len(errors) / 3 < rank < 2 * len(errors) / 3 + 1, f"rank {rank:g}"
-
-    yield from of_errors(measured, compare)
+def _network_moderate(errors: dict[str, float]) -> tuple[bool, str]:
+    rank = ranks(errors)[NETWORK]
+    return len(errors) / 3 < rank < 2 * len(errors) / 3 + 1, f"rank {rank:g}"
 
 
 FOREST_WORSE = ClaimSpec(
     name="forest_much_worse",
     text="the performance of RF is much worse than that of GB and XGB across diverse data",
     where=SECTION,
-    rule=_forest_worse,
+    rule=partial(of_errors, compare=_forest_worse, models=(FOREST, *BOOSTED)),
     rule_text=f"RMSE of RF at least {FAR_APART:g} times the smaller one of GB and XGB, in most places",
     table=POINTS,
     missing="RF, GB and XGB on complete published robots",
@@ -60,7 +54,7 @@ MODERATE = ClaimSpec(
     name="network_moderate",
     text="MLP performs moderately across all methods",
     where=SECTION,
-    rule=_network_moderate,
+    rule=partial(of_errors, compare=_network_moderate),
     rule_text="rank of MLP by RMSE among the eight in the middle third, in most places",
     table=POINTS,
     missing=MISSING_MODELS,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 
 from softkin.core.runs import PAPER, TUNED
 from softkin.core.samples import EXTRAPOLATION, TEST, VALIDATION
@@ -67,22 +68,16 @@ def _whole_positions(measured: Measured) -> Iterator[Case]:
             yield Case("coordinate by coordinate", f"{dataset} {subset}", is_enough, f"{share_text(share)} of poses")
 
 
-def _best_coverage(measured: Measured) -> Iterator[Case]:
-    def holds(score: Score) -> tuple[bool, str]:
-        coverage = {method: score(method, "coverage") for method in (QR, CQR, SCP)}
-        text = ", ".join(f"{method} {share_text(value)}" for method, value in coverage.items())
-        return coverage[SCP] == max(coverage.values()), text
-
-    yield from of_methods(measured, (QR, CQR, SCP), holds)
+def _best_coverage(score: Score) -> tuple[bool, str]:
+    coverage = {method: score(method, "coverage") for method in (QR, CQR, SCP)}
+    text = ", ".join(f"{method} {share_text(value)}" for method, value in coverage.items())
+    return coverage[SCP] == max(coverage.values()), text
 
 
-def _best_winkler(measured: Measured) -> Iterator[Case]:
-    def holds(score: Score) -> tuple[bool, str]:
-        scores = {method: score(method, "winkler_mm") for method in (QR, CQR, SCP)}
-        text = ", ".join(f"{method} {number_text(value)}" for method, value in scores.items())
-        return scores[SCP] == min(scores.values()), text
-
-    yield from of_methods(measured, (QR, CQR, SCP), holds)
+def _best_winkler(score: Score) -> tuple[bool, str]:
+    scores = {method: score(method, "winkler_mm") for method in (QR, CQR, SCP)}
+    text = ", ".join(f"{method} {number_text(value)}" for method, value in scores.items())
+    return scores[SCP] == min(scores.values()), text
 
 
 def _uncalibrated(measured: Measured) -> Iterator[Case]:
@@ -99,17 +94,13 @@ def _uncalibrated(measured: Measured) -> Iterator[Case]:
             yield Case(f"around {' '.join(run)}", f"{dataset} {TEST}", share < MOST_COORDINATES, number)
 
 
-def _conformalized_better(measured: Measured) -> Iterator[Case]:
-    def holds(score: Score) -> tuple[bool, str]:
-        off = {method: abs(score(method, "coverage") - LEVEL) for method in (QR, CQR)}
-        winkler = {method: score(method, "winkler_mm") for method in (QR, CQR)}
-        is_no_worse = winkler[CQR] <= winkler[QR] * (1 + SAME)
-        text = f"off the level by {share_text(off[CQR])} for {share_text(off[QR])}"
-        return off[CQR] < off[
-            QR
-        ] and is_no_worse, f"{text}, {number_text(winkler[CQR])} for {number_text(winkler[QR])} mm"
-
-    yield from of_methods(measured, (QR, CQR), holds)
+def _conformalized_better(score: Score) -> tuple[bool, str]:
+    off = {method: abs(score(method, "coverage") - LEVEL) for method in (QR, CQR)}
+    winkler = {method: score(method, "winkler_mm") for method in (QR, CQR)}
+    is_no_worse = winkler[CQR] <= winkler[QR] * (1 + SAME)
+    text = f"off the level by {share_text(off[CQR])} for {share_text(off[QR])}"
+    text += f", {number_text(winkler[CQR])} for {number_text(winkler[QR])} mm"
+    return off[CQR] < off[QR] and is_no_worse, text
 
 
 def _one_package_better(measured: Measured) -> Iterator[Case]:
@@ -128,12 +119,9 @@ def _one_package_better(measured: Measured) -> Iterator[Case]:
             yield Case("as printed", str(dataset), values[SCP] < values[OTHER_SCP], number)
 
 
-def _narrower(measured: Measured) -> Iterator[Case]:
-    def holds(score: Score) -> tuple[bool, str]:
-        width = {method: score(method, "mean_width_mm") for method in (SCP, QR)}
-        return width[SCP] < width[QR], f"{number_text(width[SCP])} for {number_text(width[QR])} mm"
-
-    yield from of_methods(measured, (QR, SCP), holds)
+def _narrower(score: Score) -> tuple[bool, str]:
+    width = {method: score(method, "mean_width_mm") for method in (SCP, QR)}
+    return width[SCP] < width[QR], f"{number_text(width[SCP])} for {number_text(width[QR])} mm"
 
 
 GUARANTEE = ClaimSpec(
@@ -162,7 +150,7 @@ BEST_COVERAGE = ClaimSpec(
     name="scp_best_coverage",
     text="SCP yields the best performance for coverage",
     where=f"{SECTION}; table 6",
-    rule=_best_coverage,
+    rule=partial(of_methods, methods=(QR, CQR, SCP), holds=_best_coverage),
     rule_text="the highest mean coverage of QR, CQR and SCP on test is that of SCP, on each robot",
     table=TABLE,
     missing=MISSING,
@@ -172,7 +160,7 @@ BEST_WINKLER = ClaimSpec(
     name="scp_best_winkler",
     text="SCP yields the best performance for the Winkler score",
     where=f"{SECTION}; table 6; conclusions",
-    rule=_best_winkler,
+    rule=partial(of_methods, methods=(QR, CQR, SCP), holds=_best_winkler),
     rule_text="the smallest mean Winkler score of QR, CQR and SCP on test is that of SCP, on each robot",
     table=TABLE,
     missing=MISSING,
@@ -191,7 +179,7 @@ CONFORMALIZED_BETTER = ClaimSpec(
     name="cqr_outperforms_qr",
     text="CQR outperforms QR, suggesting that calibration assists",
     where=SECTION,
-    rule=_conformalized_better,
+    rule=partial(of_methods, methods=(QR, CQR), holds=_conformalized_better),
     rule_text="coverage of CQR nearer to the level than that of QR, with no larger Winkler score, on each robot",
     table=TABLE,
     missing="QR and CQR around the paper's model on complete published robots",
@@ -211,7 +199,7 @@ NARROWER = ClaimSpec(
     name="scp_narrower",
     text="SCP produces narrower prediction intervals than QR",
     where=SECTION,
-    rule=_narrower,
+    rule=partial(of_methods, methods=(QR, SCP), holds=_narrower),
     rule_text="mean width of SCP on test below that of QR, on each robot",
     table=TABLE,
     missing=MISSING,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from functools import partial
 from statistics import fmean
 
 from softkin.core.samples import TEST
@@ -18,8 +18,7 @@ from softkin.reporting.claims.comparing import (
     of_errors,
     ranks,
 )
-from softkin.reporting.claims.measured import Measured
-from softkin.reporting.claims.spec import Case, ClaimSpec
+from softkin.reporting.claims.spec import ClaimSpec
 from softkin.reporting.tables.numbers import number_text
 
 ABAQUS, FINGER = ("abaqus",), ("finger",)
@@ -27,60 +26,42 @@ ABAQUS, FINGER = ("abaqus",), ("finger",)
 ELASTICA = ("elastica", "elastica_2023_09")
 
 
-def _competitive(measured: Measured) -> Iterator[Case]:
-    def compare(errors: dict[str, float]) -> tuple[bool, str]:
-        linear, boosted = max(errors[PLAIN_LINEAR], errors[PROCESS]), least(errors, BOOSTED)
-        return linear <= OF_A_SIZE * boosted, against("lr and gp", linear, "gb or xgb", boosted)
-
-    yield from of_errors(measured, compare, datasets=ABAQUS)
+def _competitive(errors: dict[str, float]) -> tuple[bool, str]:
+    linear, boosted = max(errors[PLAIN_LINEAR], errors[PROCESS]), least(errors, BOOSTED)
+    return linear <= OF_A_SIZE * boosted, against("lr and gp", linear, "gb or xgb", boosted)
 
 
-def _poor(measured: Measured) -> Iterator[Case]:
-    def compare(errors: dict[str, float]) -> tuple[bool, str]:
-        linear, boosted = min(errors[PLAIN_LINEAR], errors[PROCESS]), least(errors, BOOSTED)
-        return linear >= OF_A_SIZE * boosted, against("lr and gp", linear, "gb or xgb", boosted)
-
-    yield from of_errors(measured, compare, datasets=FINGER)
+def _poor(errors: dict[str, float]) -> tuple[bool, str]:
+    linear, boosted = min(errors[PLAIN_LINEAR], errors[PROCESS]), least(errors, BOOSTED)
+    return linear >= OF_A_SIZE * boosted, against("lr and gp", linear, "gb or xgb", boosted)
 
 
-def _outshine(measured: Measured) -> Iterator[Case]:
-    def compare(errors: dict[str, float]) -> tuple[bool, str]:
-        return best(errors) in BOOSTED, against("gb or xgb", least(errors, BOOSTED), best(errors), min(errors.values()))
-
-    yield from of_errors(measured, compare, subsets=[TEST], datasets=ELASTICA)
+def _outshine(errors: dict[str, float]) -> tuple[bool, str]:
+    return best(errors) in BOOSTED, against("gb or xgb", least(errors, BOOSTED), best(errors), min(errors.values()))
 
 
-def _linear_worst(measured: Measured) -> Iterator[Case]:
-    def compare(errors: dict[str, float]) -> tuple[bool, str]:
-        order = ranks(errors)
-        means = {name: fmean(order[model] for model in models) for name, models in CATEGORIES.items()}
-        worst = max(means, key=means.__getitem__)
-        return worst == "linear", f"{worst}, linear {number_text(means['linear'])} of {number_text(means[worst])}"
-
-    yield from of_errors(measured, compare)
+def _linear_worst(errors: dict[str, float]) -> tuple[bool, str]:
+    order = ranks(errors)
+    means = {name: fmean(order[model] for model in models) for name, models in CATEGORIES.items()}
+    worst = max(means, key=means.__getitem__)
+    return worst == "linear", f"{worst}, linear {number_text(means['linear'])} of {number_text(means[worst])}"
 
 
-def _linear_fail(measured: Measured) -> Iterator[Case]:
-    def compare(errors: dict[str, float]) -> tuple[bool, str]:
-        linear, winner = least(errors, LINEAR), best(errors)
-        return linear >= OF_A_SIZE * errors[winner], against("lr and lasso", linear, winner, errors[winner])
-
-    yield from of_errors(measured, compare, datasets=FINGER)
+def _linear_fail(errors: dict[str, float]) -> tuple[bool, str]:
+    linear, winner = least(errors, LINEAR), best(errors)
+    return linear >= OF_A_SIZE * errors[winner], against("lr and lasso", linear, winner, errors[winner])
 
 
-def _penalised_worst(measured: Measured) -> Iterator[Case]:
-    def compare(errors: dict[str, float]) -> tuple[bool, str]:
-        pair = {model: errors[model] for model in LINEAR}
-        return pair[PENALISED] > pair[PLAIN_LINEAR], ", ".join(f"{m} {number_text(e)}" for m, e in pair.items())
-
-    yield from of_errors(measured, compare, models=LINEAR)
+def _penalised_worst(errors: dict[str, float]) -> tuple[bool, str]:
+    pair = {model: errors[model] for model in LINEAR}
+    return pair[PENALISED] > pair[PLAIN_LINEAR], ", ".join(f"{m} {number_text(e)}" for m, e in pair.items())
 
 
 COMPETITIVE = ClaimSpec(
     name="linear_competitive_on_abaqus",
     text="LR and GP are notably competitive to GB and XGB for ABAQUS",
     where=SECTION,
-    rule=_competitive,
+    rule=partial(of_errors, compare=_competitive, datasets=ABAQUS),
     rule_text=f"RMSE of LR and of GP at most {OF_A_SIZE} times the smaller one of GB and XGB, on both subsets",
     table=POINTS,
     missing="the paper's eight models on ABAQUS, complete",
@@ -89,7 +70,7 @@ POOR = ClaimSpec(
     name="linear_and_gp_poor_on_finger",
     text="LR and GP perform poorly for the real-world data FINGER, particularly on the extrapolation data",
     where=SECTION,
-    rule=_poor,
+    rule=partial(of_errors, compare=_poor, datasets=FINGER),
     rule_text=f"RMSE of LR and of GP at least {OF_A_SIZE} times the smaller one of GB and XGB, on both subsets",
     table=POINTS,
     missing="the paper's eight models on FINGER, complete",
@@ -98,7 +79,7 @@ OUTSHINE = ClaimSpec(
     name="boosting_outshines_on_elastica",
     text="GB and XGB outshine other models on the testing data of ELASTICA, by regularization and generalization",
     where=SECTION,
-    rule=_outshine,
+    rule=partial(of_errors, compare=_outshine, subsets=[TEST], datasets=ELASTICA),
     rule_text="the smallest RMSE of the eight on test is that of GB or XGB, in a revision whose test does not leak",
     table=POINTS,
     missing="the paper's eight models on a revision of ELASTICA whose test does not leak, complete",
@@ -107,7 +88,7 @@ RANK_WORST = ClaimSpec(
     name="linear_rank_worst",
     text="of the categories, linear models rank the worst",
     where=SECTION,
-    rule=_linear_worst,
+    rule=partial(of_errors, compare=_linear_worst),
     rule_text="mean rank by RMSE: the category linear has the worst one, in most places",
     table=POINTS,
     missing=MISSING_MODELS,
@@ -118,7 +99,7 @@ FAIL = ClaimSpec(
     name="linear_fail_on_finger",
     text="LR and LASSO fail to learn the relationship between commands and positions of FINGER",
     where=SECTION,
-    rule=_linear_fail,
+    rule=partial(of_errors, compare=_linear_fail, datasets=FINGER),
     rule_text=f"RMSE of LR and of LASSO at least {OF_A_SIZE} times the smallest of the eight, on both subsets",
     table=POINTS,
     missing="the paper's eight models on FINGER, complete",
@@ -127,7 +108,7 @@ PENALTY = ClaimSpec(
     name="lasso_worst",
     text="LASSO performs the worst, because its penalty forces coefficients to zero",
     where=SECTION,
-    rule=_penalised_worst,
+    rule=partial(of_errors, compare=_penalised_worst, models=LINEAR),
     rule_text="RMSE of LASSO above that of LR, the same model without the penalty, in most places",
     table=POINTS,
     missing="LR and LASSO on complete published robots",
