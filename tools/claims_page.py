@@ -7,14 +7,13 @@ All of it but this text comes from `results/tables/claims.csv`.
 
 from __future__ import annotations
 
-import argparse
 import sys
 from pathlib import Path
 
-from softkin.core.errors import SoftkinError
 from softkin.core.files import write_text
 from softkin.reporting.claims.spec import VERDICTS
-from tools.finished_run import table
+from softkin.reporting.claims.table import VERDICT_TURNS
+from tools.finished_run import page_program, table
 from tools.results_page import wrapped
 from tools.run_tables import RunTables
 
@@ -47,7 +46,7 @@ def make_claims_page(results: Path, page: Path) -> None:
         (
             [
                 *(f"[{row.text}](#{row.claim})", row.where, f"**{row.verdict}**", row.settings),
-                "yes" if "the verdict: " in row.decided_by else "no",
+                "yes" if VERDICT_TURNS in row.decided_by else "no",
             ]
             for row in claims.itertuples()
         ),
@@ -72,16 +71,7 @@ def _section(row: dict[str, str]) -> str:
 
 def main() -> int:
     """Print the error, if any; return the exit status."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--results", type=Path, default=Path("results"))
-    parser.add_argument("--page", type=Path, default=Path("docs") / "claims.md")
-    options = parser.parse_args()
-    try:
-        make_claims_page(options.results, options.page)
-    except SoftkinError as error:
-        print(error, file=sys.stderr)
-        return 1
-    return 0
+    return page_program(make_claims_page, Path("docs") / "claims.md", __doc__)
 
 
 if __name__ == "__main__":

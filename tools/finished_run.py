@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import argparse
+import sys
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from softkin.core.errors import SoftkinError
 from softkin.core.files import read_json
 from softkin.data.audit.findings import leaking_subsets
 from softkin.models import MODELS
@@ -78,3 +81,23 @@ def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     """A Markdown table."""
     lines = [header, ["---"] * len(header), *rows]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def page_program(make: Callable[[Path, Path], None], page: Path, description: str | None) -> int:
+    """What a tool that writes a page does: print the error, if any; return the exit status.
+
+    Parameters:
+        make: writes the page from the folder of results.
+        page: where it goes by default.
+        description: of the tool.
+    """
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--results", type=Path, default=Path("results"))
+    parser.add_argument("--page", type=Path, default=page)
+    options = parser.parse_args()
+    try:
+        make(options.results, options.page)
+    except SoftkinError as error:
+        print(error, file=sys.stderr)
+        return 1
+    return 0

@@ -8,7 +8,6 @@ are written between the page's two marks.
 
 from __future__ import annotations
 
-import argparse
 import re
 import sys
 import textwrap
@@ -25,7 +24,7 @@ from softkin.data.audit.findings import leak_notes
 from softkin.reporting.tables.interval_choice import deployed_intervals
 from softkin.reporting.tables.numbers import assessed_text, length_text, share_text
 from softkin.training.selection import deployed
-from tools.finished_run import TITLES, FinishedRun, table
+from tools.finished_run import TITLES, FinishedRun, page_program, table
 
 #: The page that the gallery is part of.
 PAGE = Path("docs") / "results.md"
@@ -157,16 +156,7 @@ def _filled(text: str) -> str:
 
 def main() -> int:
     """Print the error, if any; return the exit status."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--results", type=Path, default=Path("results"))
-    parser.add_argument("--page", type=Path, default=PAGE)
-    options = parser.parse_args()
-    try:
-        make_gallery(options.results, options.page)
-    except SoftkinError as error:
-        print(error, file=sys.stderr)
-        return 1
-    return 0
+    return page_program(make_gallery, PAGE, __doc__)
 
 
 if __name__ == "__main__":

@@ -8,7 +8,6 @@ Tables and numbers come from the run, the text around them from `results_page.md
 
 from __future__ import annotations
 
-import argparse
 import re
 import sys
 import textwrap
@@ -16,9 +15,8 @@ from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-from softkin.core.errors import SoftkinError
 from softkin.core.files import write_text
-from tools.finished_run import FinishedRun
+from tools.finished_run import FinishedRun, page_program
 from tools.gallery import BEGIN, END
 from tools.results_intervals import intervals_in_domain, intervals_in_extrapolation
 from tools.results_points import data, points_in_extrapolation, printed_cells
@@ -73,16 +71,7 @@ def _filled(text: str, indent: str) -> str:
 
 def main() -> int:
     """Print the error, if any; return the exit status."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--results", type=Path, default=Path("results"))
-    parser.add_argument("--page", type=Path, default=Path("docs") / "results.md")
-    options = parser.parse_args()
-    try:
-        make_results_page(options.results, options.page)
-    except SoftkinError as error:
-        print(error, file=sys.stderr)
-        return 1
-    return 0
+    return page_program(make_results_page, Path("docs") / "results.md", __doc__)
 
 
 if __name__ == "__main__":

@@ -22,14 +22,13 @@ from softkin.core.runs import Run
 from softkin.evaluation.score_left_out import score_left_out
 from softkin.reporting.claims import CLAIMS
 from softkin.reporting.claims.measured import measured
-from softkin.reporting.claims.table import claims_table
+from softkin.reporting.claims.table import VERDICT_TURNS, claims_table
 from softkin.reporting.tables.numbers import number_text, share_text
 from softkin.reporting.tables.single_rows import SHARE, hanging
 from softkin.uncertainty.choose import shown_runs
 from tools.finished_run import FinishedRun, table
 
 PUBLISHED = Path(__file__).parents[1] / "resources" / "published"
-VERDICT = "the verdict: "
 
 
 def left_out_of(run: FinishedRun) -> pd.DataFrame:
@@ -80,7 +79,7 @@ def verdicts(run: FinishedRun, left_out: pd.DataFrame) -> list[list[str]]:
     frames |= {name: pd.read_csv(PUBLISHED / f"{name}.csv") for name in ("subsets", "approaches", "improvements")}
     about, cards = ([of(dataset) for dataset in run.datasets] for of in (run.description, run.card))
     claims = claims_table(CLAIMS, measured(frames, about, cards), left_out)
-    turned = claims[claims["decided_by"].str.contains(VERDICT)]
+    turned = claims[claims["decided_by"].str.contains(VERDICT_TURNS)]
     return [[row.claim, row.verdict, row.decided_by] for row in turned.itertuples()]
 
 

@@ -14,6 +14,8 @@ COLUMNS = ["claim", "text", "where", "verdict", "settings", "numbers", "rule", "
 COMMAND = "make run"
 #: Tables whose numbers are means over rows; a claim that other tables decide hangs on no single row.
 MEANS_OVER_ROWS = ("point_metrics.csv", "interval_metrics.csv")
+#: How a row begins without which the verdict itself would be another.
+VERDICT_TURNS = "the verdict: "
 #: A row left out: its dataset and subset, which one it is, and everything measured without it.
 LeftOut = tuple[str, Measured]
 
@@ -58,7 +60,7 @@ def deciding_rows(claim: ClaimSpec, whole: Judged, variants: list[LeftOut]) -> I
         after = judged(claim, without)
         if (after.verdict, after.settings) != (whole.verdict, whole.settings):
             settings = f" ({'; '.join(after.settings)})" if after.settings else ""
-            yield f"the verdict: without {name} it is '{after.verdict}{settings}'"
+            yield f"{VERDICT_TURNS}without {name} it is '{after.verdict}{settings}'"
             continue
         for case in after.cases:
             key = (case.setting, case.place)
