@@ -155,6 +155,14 @@ def test_each_script_serves_the_rule_of_its_name() -> None:
     assert {path.stem for path in SCRIPTS} == set(blocks())
 
 
+def test_each_job_is_told_what_it_reads() -> None:
+    """A result that is cut off or damaged is then named; a user's own files are checked by what reads them."""
+    for path in SCRIPTS:
+        arguments = re.findall(r"with job\((.*)\):", path.read_text())
+        assert len(arguments) == 1, path
+        assert "snakemake.input" in arguments[0] or path.stem in ("retrieve", "create_store"), path
+
+
 def test_logs_and_benchmarks_bear_the_name_of_their_rule() -> None:
     for name, block in blocks().items():
         stems = re.findall(r"\"results/(logs|benchmarks)/(\w+)", block)

@@ -11,7 +11,7 @@ from softkin.training.members import members_of
 from softkin.uncertainty.choose import deployed_choice
 
 files, params, dataset, threads = snakemake.input, snakemake.params, snakemake.wildcards.dataset, snakemake.threads
-with job(snakemake.log[0], f"score recorded {dataset}", snakemake.output, params=snakemake.params):
+with job(snakemake.log[0], f"score recorded {dataset}", snakemake.output, snakemake.input, snakemake.params):
     best = deployed_choice(files.choice)
     run = None
     if best is not None:
