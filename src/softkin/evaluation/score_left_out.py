@@ -30,6 +30,7 @@ from softkin.core.samples import (
     measured_coordinates,
 )
 from softkin.data.table import read_subset
+from softkin.uncertainty.stored_outputs import predicted_rows
 
 COLUMNS = ["dataset", "subset", "left_out", "model", "preset", "interval_method", "metric", "value", "without"]
 #: A row that moves no number by more than this share of it is not listed.
@@ -73,7 +74,7 @@ def score_left_out(
         true, key = truth[subset], {"dataset": dataset, "subset": subset}
         numbers: Numbers = []
         for run, frame in predicted.items():
-            positions = _positions(frame, subset, true)
+            positions = predicted_rows(frame, [subset])
             numbers += _points(run, true, positions, moving)
             rows += [key | row for row in _coordinates(run, true, positions)]
         for name, of_runs in bounds.items():
@@ -88,11 +89,6 @@ def score_left_out(
 def _of_runs(stored: pd.DataFrame, shown: Collection[Run]) -> dict[Run, pd.DataFrame]:
     groups = stored.groupby(["model", "preset"], sort=False)
     return {Run(*run): frame for run, frame in groups if run in shown}
-
-
-def _positions(frame: pd.DataFrame, subset: str, true: Array) -> Array:
-    columns = coordinate_columns(true.shape[1] // 3)
-    return np.asarray(frame.loc[frame["subset"] == subset, columns], dtype=np.float64)
 
 
 def _points(run: Run, true: Array, predicted: Array, moving: NDArray[np.bool_]) -> Numbers:
