@@ -11,7 +11,9 @@ from softkin.core.metrics.interval import fewest_commands
 from softkin.core.samples import EXTRAPOLATION, TEST
 from softkin.evaluation.beside_oracle import BAND
 from softkin.models.spec import PAPERS_RUN
+from softkin.reporting.tables.interval_choice import PAPERS_METHOD
 from softkin.reporting.tables.numbers import NOT_ASSESSABLE, NOTHING, band_text, number_text, share_text
+from softkin.reporting.tables.published_intervals import AVERAGES
 from softkin.reporting.tables.single_rows import Number
 from softkin.uncertainty.labelled import LABELLED_METHODS
 from softkin.uncertainty.regions import REGION_METHODS
@@ -19,9 +21,6 @@ from softkin.uncertainty.regions.spec import JOINT_INTERVALS
 from tools.finished_run import TITLES, FinishedRun, table
 from tools.run_tables import ONE_FOR_EVERYWHERE, RUN
 
-#: The paper's recipe: what it puts around its model.
-RECIPE = "scp_mapie"
-AVERAGES = ("mean", "mean_informative", "joint")
 RATIOS = ("winkler_ratio_to_paper", "winkler_ratio_to_paper_without_gross")
 ORACLE, RATIO = "oracle", "winkler_ratio_to_oracle"
 
@@ -49,7 +48,7 @@ def _chosen(run: FinishedRun) -> str:
     scored = ("coverage", "winkler_mm", "winkler_without_gross_mm")
     for dataset in run.datasets:
         shown = choice[choice["dataset"] == dataset].to_dict("records")
-        recipe = (dataset, *PAPERS_RUN, RECIPE, TEST)
+        recipe = (dataset, *PAPERS_RUN, PAPERS_METHOD, TEST)
         if recipe in means.index:
             scores = {f"test_{name}": means.loc[recipe, name] for name in scored}
             papers = dict(zip([*RUN, "interval_method"], recipe, strict=False))
@@ -144,14 +143,14 @@ def _plain_and_widened(run: FinishedRun, frame: pd.DataFrame, deployed: pd.DataF
     """
     scores = frame.set_index([*RUN, "interval_method"]).to_dict("index")
     means = run.tables.interval_means()
-    plain = means[(means["subset"] == EXTRAPOLATION) & (means["interval_method"] == RECIPE)]
+    plain = means[(means["subset"] == EXTRAPOLATION) & (means["interval_method"] == PAPERS_METHOD)]
     plain_coverage = plain.set_index(RUN)["coverage"].to_dict()
     own = set(deployed.itertuples(index=False, name=None))
     rows = []
     for around in frame[["model", "preset"]].drop_duplicates().itertuples(index=False, name=None):
         for dataset in run.datasets:
             of = scores.get((dataset, *around, ONE_FOR_EVERYWHERE), {})
-            of_plain = scores.get((dataset, *around, RECIPE), {})
+            of_plain = scores.get((dataset, *around, PAPERS_METHOD), {})
             deployed_here = ", deployed" if (dataset, *around) in own else ""
             shares = [share_text(of.get(name)) for name in ("coverage", "worst_coverage", "joint_coverage")]
             rows.append(
@@ -162,7 +161,7 @@ def _plain_and_widened(run: FinishedRun, frame: pd.DataFrame, deployed: pd.DataF
                 ]
             )
     header = ["Robot", "Around", "Coverage", "Worst coordinate", "Whole pose", "Ratio (band)", "Without gross errors"]
-    return table([*header, f"{TITLES.methods[RECIPE]}: coverage", "Its ratio (band)"], rows)
+    return table([*header, f"{TITLES.methods[PAPERS_METHOD]}: coverage", "Its ratio (band)"], rows)
 
 
 def _ratio(scores: Mapping[str, Any]) -> str:

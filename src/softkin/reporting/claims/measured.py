@@ -11,6 +11,7 @@ import pandas as pd
 from softkin.core.runs import PAPERS_LEVEL, PRESETS
 from softkin.core.samples import EXTRAPOLATION, TEST
 from softkin.data.audit.findings import leaking_subsets
+from softkin.reporting.tables.published_intervals import AVERAGES
 from softkin.uncertainty.intervals.spec import NO_GUARANTEE
 
 #: Fewer distinct commands of a subset than this say nothing of a model.
@@ -18,7 +19,6 @@ FEWEST_COMMANDS = 20
 #: A promised coverage whose p-value is below this, adjusted for the number of coordinates, is not as promised.
 CHANCE = 0.05
 AVERAGE, JOINT = "mean_informative", "joint"
-AVERAGES = ("mean", AVERAGE, JOINT)
 
 
 class Point(NamedTuple):

@@ -12,9 +12,9 @@ from softkin.reporting.page.grid import Cell, Column, Grid, filtered_columns, nu
 from softkin.reporting.page.interval_rows import interval_rows
 from softkin.reporting.page.marks import Marks
 from softkin.reporting.page.singles import Singles
-from softkin.reporting.tables.interval_choice import why_another_is_deployed
+from softkin.reporting.tables.interval_choice import RATIO, why_another_is_deployed
 from softkin.reporting.tables.numbers import assessed_text, share_text
-from softkin.reporting.tables.single_rows import RATIO, Number
+from softkin.reporting.tables.single_rows import Number
 from softkin.reporting.titles import Titles
 
 SUBSET = Column("Rows", filtered=True, preset=TEST)

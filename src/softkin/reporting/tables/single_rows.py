@@ -11,12 +11,11 @@ import pandas as pd
 
 from softkin.core.samples import TEST
 from softkin.models.spec import PAPERS_RUN
+from softkin.reporting.tables.interval_choice import PAPERS_METHOD, RATIO
 from softkin.reporting.tables.numbers import number_text
 
 #: A number that changes by more than this share of itself without one row hangs on it.
 SHARE = 0.05
-#: The paper's recipe, which ratios are to.
-RECIPE, RATIO = "scp_mapie", "winkler_ratio_to_paper"
 KEY = ["dataset", "subset", "model", "preset", "interval_method", "metric"]
 
 
@@ -69,7 +68,7 @@ def hanging(left_out: pd.DataFrame, share: float = SHARE) -> dict[Number, Hangin
 def ratios(left_out: pd.DataFrame) -> pd.DataFrame:
     """Winkler scores on test over those of the paper's recipe, with the same row left out of both."""
     scores = left_out[(left_out["metric"] == "winkler_mm") & (left_out["subset"] == TEST)]
-    is_recipe = (scores["interval_method"] == RECIPE) & (scores["model"] == PAPERS_RUN.model)
+    is_recipe = (scores["interval_method"] == PAPERS_METHOD) & (scores["model"] == PAPERS_RUN.model)
     recipe = scores[is_recipe & (scores["preset"] == PAPERS_RUN.preset)]
     both = scores.merge(recipe[["dataset", "left_out", "value", "without"]], on=["dataset", "left_out"])
     both = both[(both["value_y"] > 0) & (both["without_y"] > 0)]

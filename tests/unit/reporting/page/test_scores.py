@@ -3,7 +3,8 @@ from __future__ import annotations
 from softkin.reporting.page.choices import read_choices
 from softkin.reporting.page.scores import choice_grid, interval_grid, point_grid
 from softkin.reporting.page.singles import Singles
-from softkin.reporting.tables.single_rows import RATIO, Hanging, Number
+from softkin.reporting.tables.interval_choice import RATIO
+from softkin.reporting.tables.single_rows import Hanging, Number
 from tests.unit.reporting.page.frames import LEVELS, MODELS, NO_MARKS, PRESETS, ROBOTS, TITLES, frames, kinds, texts
 
 CHOICES = read_choices(frames())
