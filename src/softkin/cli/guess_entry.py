@@ -18,7 +18,7 @@ from softkin.data import split
 from softkin.data.readers.columns import axis_of, marker_by_marker, unit_of
 from softkin.data.readers.memory_table import Table
 from softkin.data.readers.table_formats import open_table
-from softkin.data.recordings import recording_of
+from softkin.data.recordings import check_placed, recording_of
 
 #: Words of a column's name, by the kind of column that they say; the first kind that has one of the words counts.
 WORDS = {
@@ -222,7 +222,9 @@ def _when(table: Table, kinds: Mapping[str, str | None]) -> tuple[dict[str, str]
     _, columns = table.read([], [table.names.index(name) for name in named.values()])
     by = dict(zip(named, columns, strict=True))
     try:
-        recording_of(np.zeros((len(columns[0]), 1)), by.get("order"), by.get("session"), table.place)
+        recording = recording_of(np.zeros((len(columns[0]), 1)), by.get("order"), by.get("session"), table.place)
+        unjoined = getattr(table, "unjoined", None)
+        check_placed(recording if unjoined is None else recording.take(~unjoined), table.place)
     except DataError as error:
         return {}, [f"order, session: left out, since {' and '.join(named.values())} are none: {error.what}"]
     return named, [f"{', '.join(named)}: guessed from the names of columns, so that memory can be found; please check"]

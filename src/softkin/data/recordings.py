@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from softkin.core.errors import DataError
 from softkin.core.recording import CommandMemory, Recording, Whole, gaps
 from softkin.core.samples import SUBSETS, Array, Samples
+from softkin.data.missing_values import lacks_value
 from softkin.data.split import times
 
 logger = logging.getLogger("softkin")
@@ -51,7 +52,9 @@ def recording_of(
     import pandas as pd
 
     n_rows = len(commands)
-    is_placed = ~np.any([np.zeros(n_rows, bool), *(pd.isna(by) for by in (order, session) if by is not None)], axis=0)
+    is_placed = ~np.any(
+        [np.zeros(n_rows, bool), *(lacks_value(by) for by in (order, session) if by is not None)], axis=0
+    )
     rows = np.flatnonzero(is_placed)
 
     def placed(row: int) -> str:
@@ -77,6 +80,22 @@ def recording_of(
     robot = CommandMemory.of(commands[~is_hole])
     memory = _memory(robot, commands, rows[in_time], numbers, is_hole, is_after)
     return Recording(numbered, numbers, memory, robot)
+
+
+def check_placed(recording: Recording, place: Callable[[int], str]) -> None:
+    """Each row of the recording has its order and its session; `place` as of `recording_of`.
+
+    Raises:
+        DataError: a row lacks one; names the first.
+    """
+    lacking = np.flatnonzero(recording.session == 0)
+    if len(lacking):
+        raise DataError(
+            "no order or no session, so what the robot remembers there is unknown"
+            + (f" (rows without: {len(lacking)})" if len(lacking) > 1 else ""),
+            where=f"{place(int(lacking[0]))}, `order`, `session`",
+            fix="fill the cell or delete the row",
+        )
 
 
 def _memory(
@@ -163,10 +182,13 @@ def with_order_table(samples: Mapping[str, Samples], path: str | Path, source: M
     frame = frame.set_axis(index).loc[rows]
     commands = np.concatenate([part.commands for part in samples.values()])
     session = frame[source["session"]].to_numpy() if "session" in source else None
+
+    def place(row: int) -> str:
+        return f"subset {rows[row][0]}, row {rows[row][1]}"
+
     try:
-        recording = recording_of(
-            commands, frame[column].to_numpy(), session, lambda row: f"subset {rows[row][0]}, row {rows[row][1]}"
-        )
+        recording = recording_of(commands, frame[column].to_numpy(), session, place)
+        check_placed(recording, place)
     except DataError as error:
         raise error.within(where) from error
     ends = np.cumsum([len(part) for part in samples.values()])[:-1]

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from softkin.core.errors import DataError
 from softkin.core.recording import Recording
 from softkin.core.samples import EXTRAPOLATION, MIN_ROWS, SUBSETS, TEST, TRAIN, VALIDATION, Array
+from softkin.data.missing_values import check_whole
 from softkin.data.split_in_time import IN_TIME, split_in_time
 
 Codes = NDArray[np.int64]
@@ -185,15 +186,8 @@ def _same_value(
     options: Mapping[str, Any], _commands: Array, column: NDArray[Any] | None, place: Callable[[int], str]
 ) -> Codes:
     assert column is not None
-    codes, values = _factorize(column)
-    empty = [code for code, value in enumerate(values) if not str(value).strip()]
-    if empty:
-        raise DataError(
-            "no value, so the group of the row is unknown",
-            where=f"{place(int(np.argmax(codes == empty[0])))}, column '{options['column']}'",
-            fix="fill the cell or delete the row",
-        )
-    return codes
+    check_whole(options["column"], column, "group", place)
+    return _factorize(column)[0]
 
 
 def _same_stretch(
@@ -201,6 +195,7 @@ def _same_stretch(
 ) -> Codes:
     """Stretches of equal size of the recording in the order of time; rows of one time stay together."""
     assert column is not None
+    check_whole(options["column"], column, "time", place)
     when = times(options["column"], column, place)
     rank = np.searchsorted(np.sort(when), when, side="left")
     stretches = rank * options.get("blocks", BLOCKS) // len(when)

@@ -95,10 +95,12 @@ def test_columns_of_time_and_session_are_guessed(tmp_path: Path) -> None:
     entry, reasons = guess_entry(path, "Arm", "arm.csv")
     assert (entry["order"], entry["session"]) == ("time", "run")
     assert any("order, session: guessed" in reason for reason in reasons)
-    frame.assign(run=[1, 2] * 100).to_csv(path, index=False)
-    entry, reasons = guess_entry(path, "Arm", "arm.csv")
-    assert "order" not in entry
-    assert any("left out, since time and run are none" in reason for reason in reasons)
+    blank = frame["time"].where(frame["time"] != 7)
+    for spoilt in (frame.assign(run=[1, 2] * 100), frame.assign(time=blank)):
+        spoilt.to_csv(path, index=False)
+        entry, reasons = guess_entry(path, "Arm", "arm.csv")
+        assert "order" not in entry
+        assert any("left out, since time and run are none" in reason for reason in reasons)
 
 
 def test_the_guess_is_made_though_the_file_is_not_readable_to_its_end(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import logging
 from pathlib import Path
 from typing import Any
@@ -48,11 +49,29 @@ def test_an_order_may_start_again_in_each_session() -> None:
     assert found.order.tolist() == [2, 1, 3, 4, 5, 6]
 
 
+def test_a_row_without_order_is_a_hole_in_any_kind_of_file() -> None:
+    for hole in ("", None):
+        order = np.array(["1", "2", hole, "4", "5", "6"], dtype=object)
+        assert recording_of(COMMANDS, order, None, place).session.tolist() == [1, 1, 0, 1, 1, 1]
+
+
 def test_what_is_no_recording_is_an_error() -> None:
     with pytest.raises(DataError, match=r"line 4, `order`: the same order as line 1: 3"):
         recording_of(COMMANDS, np.array([7, 3, 9, 1, 3, 4]), None, place)
     with pytest.raises(DataError, match=r"line 4, `session`.*stand between"):
         recording_of(COMMANDS, None, np.array([1, 1, 2, 2, 1, 1]), place)
+
+
+@pytest.mark.parametrize("missing", ["refuse", "drop_rows"])
+@pytest.mark.parametrize("column", ["t", "trial"])
+def test_a_row_that_is_kept_has_its_order_and_session(tmp_path: Path, missing: str, column: str) -> None:
+    rows = [{"t": n, "trial": 1 + n // 30, "u": n % 7 / 7, "x": n, "y": n**2 % 11, "z": 1} for n in range(60)]
+    rows[5] |= {column: None}
+    (tmp_path / "arm.json").write_text(json.dumps(rows), encoding="utf-8")
+    entry = {"commands": ["u"], "positions": ["x", "y", "z"], "split": {"method": "later"}, "position_unit": "mm"}
+    source = {**entry, "file": "arm.json", "order": "t", "session": "trial", "missing": missing}
+    with pytest.raises(DataError, match=r"row 5 .*`order`, `session`: no order or no session"):
+        table_file.read(tmp_path / "arm.json", dataset="arm", source=source)
 
 
 def order_table(samples: dict[str, Samples]) -> pd.DataFrame:
@@ -89,6 +108,7 @@ def test_a_table_beside_the_file_is_joined_row_by_row(tmp_path: Path) -> None:
         (lambda frame: frame.assign(row=0), "120 rows that are not the 120 of the dataset, each once"),
         (lambda frame: frame.rename(columns={"episode": "number"}), "no column 'episode'"),
         (lambda frame: frame.assign(episode=3), "subset train, row 1, `order`: the same order"),
+        (lambda frame: frame.assign(episode=frame["episode"].replace(2, np.nan)), "`session`: no order or no session"),
     ],
 )
 def test_another_table_is_an_error(tmp_path: Path, change: Any, says: str) -> None:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from softkin.core.errors import DataError
 from softkin.core.samples import Array
+from softkin.data.missing_values import lacks_value
 from softkin.data.readers.memory_table import Table
 from softkin.data.readers.named_arrays import SESSION
 
@@ -114,11 +115,12 @@ class StackedTables:
 
 
 def _session(number: int, own: NDArray[Any] | None, n_rows: int) -> NDArray[Any]:
-    """The session of each row of a trial: its number, and what its file says."""
+    """The session of each row of a trial: its number, and what its file says; None where that says nothing."""
     if own is None:
         return np.full(n_rows, float(number + 1))
     labels = np.empty(n_rows, dtype=object)
     labels[:] = [f"{number + 1} {value}" for value in own]
+    labels[lacks_value(own)] = None
     return labels
 
 

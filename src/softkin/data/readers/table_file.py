@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from softkin.core.errors import DataError
 from softkin.core.recording import Recording
@@ -22,7 +23,7 @@ from softkin.data.own_files import in_words
 from softkin.data.readers import columns
 from softkin.data.readers.complete_rows import REFUSE, whole
 from softkin.data.readers.table_formats import open_table
-from softkin.data.recordings import recording_of
+from softkin.data.recordings import check_placed, recording_of
 
 logger = logging.getLogger("softkin")
 
@@ -71,7 +72,7 @@ def read(
         )
         if counts is not None:
             counts |= left.counts
-        recording = _recording(values[:, :n_commands], by, table.place)
+        recording = _recording(values[:, :n_commands], by, table.place, left.rows)
         names = [*names[:n_commands], *(names[n_commands + place] for place in left.coordinates)]
         values = values[np.ix_(left.rows, [*range(n_commands), *(n_commands + left.coordinates)])]
 
@@ -79,7 +80,6 @@ def read(
             return table.place(int(left.rows[row]))
 
         _check_magnitudes(names, values, place)
-        recording = None if recording is None else recording.take(left.rows)
         samples = Samples(values[:, :n_commands], _spatial(values[:, n_commands:], dimensions), recording)
         column = by["split"][left.rows] if "split" in by else None
         how = (source["split"], samples.commands, column, place)
@@ -128,11 +128,17 @@ def own_columns(path: str | Path, source: Mapping[str, Any]) -> dict[str, Any]:
     return {**chosen, "dimensions": source.get("dimensions", 3)}
 
 
-def _recording(commands: Array, by: Mapping[str, Any], place: Callable[[int], str]) -> Recording | None:
-    """The recording that the columns `by` of order and session tell; None where the entry names neither."""
+def _recording(
+    commands: Array, by: Mapping[str, Any], place: Callable[[int], str], kept: NDArray[np.intp]
+) -> Recording | None:
+    """The recording of the rows that are `kept`, as the columns `by` of order and session of all rows tell it; None
+    where the entry names neither.
+    """
     if not any(key in by for key in WHEN):
         return None
-    return recording_of(commands, by.get("order"), by.get("session"), place)
+    recording = recording_of(commands, by.get("order"), by.get("session"), place).take(kept)
+    check_placed(recording, lambda row: place(int(kept[row])))
+    return recording
 
 
 def _spatial(positions: Array, dimensions: int) -> Array:

@@ -42,6 +42,11 @@ def test_sessions_within_files_stay_apart() -> None:
     assert both.read([1], [0])[1][0].tolist() == ["1 x", "1 y", "2 x"]
 
 
+def test_a_session_that_a_file_does_not_say_is_none() -> None:
+    both = StackedTables([(name, table(u=[0.1, 0.2], session=["x", None])) for name in ("a.csv", "b.csv")])
+    assert both.read([1], [0])[1][0].tolist() == ["1 x", None, "2 x", None]
+
+
 def test_trials_of_other_columns_and_bad_values_name_their_file() -> None:
     with pytest.raises(DataError, match=r"file b.csv: columns differ from those of a.csv: x, y"):
         StackedTables([("a.csv", FIRST), ("b.csv", table(u=[1.0], y=[2.0]))])
