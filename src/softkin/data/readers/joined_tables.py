@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from softkin.core.errors import DataError
 from softkin.core.samples import Array
+from softkin.data.missing_values import lacks_value
 from softkin.data.readers.bad_rows import FIX_MISSING, listed
 from softkin.data.readers.columns import choose
 from softkin.data.readers.memory_table import Table
@@ -142,7 +143,8 @@ def _keys(files: Sequence[tuple[str, Table]], join: Mapping[str, Any]) -> list[N
 
 def _by_column(files: Sequence[tuple[str, Table]], join: Mapping[str, Any]) -> list[Partners]:
     keys = _keys(files, join)
-    repeats = [len(set(key.tolist())) < len(key) for key in keys]
+    told = [key[~lacks_value(key)].tolist() for key in keys]
+    repeats = [len(set(values)) < len(values) for values in told]
     base = repeats.index(True) if any(repeats) else 0
     found = [
         Partners(np.arange(len(key))) if part == base else by_column(keys[base], key, (files[base][0], files[part][0]))
@@ -151,6 +153,9 @@ def _by_column(files: Sequence[tuple[str, Table]], join: Mapping[str, Any]) -> l
     for part, partners in enumerate(found):
         names = {"own": files[base][0], "other": files[part][0], "column": "column of the join"}
         check_some(partners, keys[base], keys[part], names)
+        n_alone = len(keys[part]) - len(np.unique(partners.rows[partners.rows >= 0]))
+        if n_alone:
+            logger.info("%d of %d rows of %s have no partner", n_alone, len(keys[part]), files[part][0])
     return found
 
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from softkin.core.errors import DataError
 from softkin.core.samples import Array
+from softkin.data.missing_values import lacks_value
 from softkin.data.split import times
 
 Rows = NDArray[np.intp]
@@ -63,14 +64,16 @@ class Partners:
 
 
 def by_column(own: NDArray[Any], other: NDArray[Any], names: tuple[str, str]) -> Partners:
-    """Partners of equal values of a column, numbers or text; `names` are those of the two files.
+    """Partners of equal values of a column, numbers or text; a row without a value has none. `names` are those of the
+    two files.
 
     Raises:
         DataError: a value stands twice in the other file.
     """
     import pandas as pd
 
-    keys, others = _comparable(own, other)
+    told, others_told = ~lacks_value(own), np.flatnonzero(~lacks_value(other))
+    keys, others = _comparable(own[told], other[others_told])
     twice = pd.Series(others).duplicated().to_numpy()
     if twice.any():
         raise DataError(
@@ -78,7 +81,10 @@ def by_column(own: NDArray[Any], other: NDArray[Any], names: tuple[str, str]) ->
             where=f"file {names[1]}, column of `join`",
             fix="give each of its rows a value of its own, or join by time",
         )
-    return Partners(np.asarray(pd.Index(others).get_indexer(pd.Index(keys)), dtype=np.intp))
+    found = np.asarray(pd.Index(others).get_indexer(pd.Index(keys)), dtype=np.intp)
+    rows = np.full(len(own), -1, dtype=np.intp)
+    rows[told] = np.where(found >= 0, np.r_[others_told, -1][found], -1)
+    return Partners(rows)
 
 
 def by_time(own: Array, other: Array, tolerance: float, resample: str) -> Partners:
@@ -126,7 +132,8 @@ def check_some(partners: Partners, own: NDArray[Any], other: NDArray[Any], names
     """
     if (partners.rows >= 0).any() or not len(own) or not len(other):
         return
-    runs = [f"from {min(column)} to {max(column)}" for column in (own, other)]
+    told = [column[~lacks_value(column)].tolist() for column in (own, other)]
+    runs = [f"from {min(values)} to {max(values)}" if values else "nowhere: it is empty" for values in told]
     raise DataError(
         f"no row of it has a partner in {names['other']}: its {names['column']} runs {runs[0]}, that of the other "
         f"{runs[1]}",

@@ -36,6 +36,16 @@ def test_rows_of_equal_values_are_one_row_in_the_order_of_the_first_file() -> No
     assert [column.tolist() for column in both.look()][3] == [30.0, 10.0, 20.0]
 
 
+def test_rows_without_a_value_belong_to_no_row(caplog: pytest.LogCaptureFixture) -> None:
+    commands = table(ID=["1", "2", "", ""], u=[0.1, 0.2, 0.3, 0.4])
+    both = joined(commands, table(ID=["1", "1", "2", "", "3"], x=[1.0, 2.0, 3.0, 4.0, 5.0]), by="column", column="ID")
+    with caplog.at_level(logging.INFO, logger="softkin"):
+        values = both.read([1, 3], [])[0]
+    np.testing.assert_array_equal(values, [[0.1, 1], [0.1, 2], [0.2, 3], [np.nan, 4], [np.nan, 5]])
+    assert both.unjoined.tolist() == [False, False, False, True, True]
+    assert "2 of 4 rows of a.csv have no partner" in caplog.text
+
+
 def test_each_row_of_a_file_of_repeated_values_has_its_partner() -> None:
     frames = table(trial=[1, 1, 2, 3], x=[1.0, 2.0, 3.0, 4.0])
     both = joined(COMMANDS, frames, by="column", column=["ID", "trial"])

@@ -26,6 +26,9 @@ def texts(*values: str) -> Any:
         (texts("2.0", "00", "5"), np.array([0.0, 1.0, 2.0]), [2, 0, -1]),
         (texts(" b", "a", "a"), texts("a ", "b"), [1, 0, 0]),
         (texts("a", "1"), np.array([1, 2]), [-1, 0]),
+        (texts("1", "", "2"), texts("1.0", "2.0", "", " "), [0, -1, 1]),
+        (np.array([np.nan, 1.0]), np.array([np.nan, 2.0, np.nan, 1.0]), [-1, 3]),
+        (texts("", ""), texts("1"), [-1, -1]),
     ],
 )
 def test_equal_values_are_partners_as_numbers_or_as_text(own: Any, other: Any, rows: list[int]) -> None:
@@ -82,3 +85,7 @@ def test_no_partner_at_all_says_what_both_files_hold() -> None:
     names = {"own": "own.csv", "other": "other.csv", "column": "time"}
     with pytest.raises(DataError, match=r"its time runs from 0.0 to 1.0, that of the other from 7.0 to 8.0"):
         check_some(Partners(np.array([-1, -1])), np.array([0.0, 1.0]), np.array([7.0, 8.0]), names)
+    with pytest.raises(DataError, match=r"its time runs nowhere: it is empty, that of the other from 7 to 8"):
+        check_some(
+            Partners(np.array([-1])), np.array([None], dtype=object), np.array([7, None, 8], dtype=object), names
+        )
