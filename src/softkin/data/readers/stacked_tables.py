@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from softkin.core.errors import DataError
 from softkin.core.samples import Array
 from softkin.data.missing_values import lacks_value
+from softkin.data.readers.joined_tables import JoinedTables
 from softkin.data.readers.memory_table import Table
 from softkin.data.readers.named_arrays import SESSION
 
@@ -46,13 +47,10 @@ class StackedTables:
         return tuple(told.get(name, "") for name in self.names) if told else ()
 
     @property
-    def unjoined(self) -> NDArray[np.bool_]:
-        """Rows (n_rows,) that lack a partner, where the trials are joined of parts."""
-        parts = [getattr(table, "unjoined", None) for _, table in self._trials]
-        sizes = np.diff(self._rows_up_to(), prepend=0)
-        return np.concatenate(
-            [np.zeros(size, dtype=bool) if part is None else part for part, size in zip(parts, sizes, strict=True)]
-        )
+    def unjoined(self) -> NDArray[np.bool_] | None:
+        """Rows (n_rows,) that lack a partner, where the trials are joined of parts; None where they are whole files."""
+        parts = [table.unjoined for _, table in self._trials if isinstance(table, JoinedTables)]
+        return np.concatenate(parts) if parts else None
 
     def read(
         self, numbers: Sequence[int], others: Sequence[int], *, gaps: bool = False

@@ -30,7 +30,7 @@ def test_trials_stand_one_below_the_other_and_a_column_numbers_them() -> None:
     assert [both.place(row) for row in (0, 1, 2, 4)] == [
         f"file {p}" for p in ("a.csv, line 2", "a.csv, line 3", "b.csv, line 2", "b.csv, line 4")
     ]
-    assert not both.unjoined.any()
+    assert both.unjoined is None
     assert next(column.tolist() for column in both.look()) == [1, 1, 2, 2, 2]
     assert both.read([0], [])[0].ravel().tolist() == [1, 1, 2, 2, 2]
 
@@ -66,5 +66,6 @@ def test_trials_of_joined_parts_say_which_rows_lack_a_partner() -> None:
     both = StackedTables([("u.csv, x.csv", part) for part in parts])
     values, _ = both.read([both.names.index("u"), both.names.index("x")], [])
     np.testing.assert_array_equal(values, [[0.1, 1], [0.2, 2], [0.1, np.nan], [0.2, 1]])
+    assert both.unjoined is not None
     assert both.unjoined.tolist() == [False, False, True, False]
     assert both.place(3) == "file u.csv, line 3 with file x.csv, line 2"
