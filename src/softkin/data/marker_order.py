@@ -24,6 +24,8 @@ OFF, MENDED, MENDED_SHARE = 8.0, 5.0, 0.3
 #: No distance is known better than to this share of it, and of the whole robot.
 LEAST_SCALE, LEAST_SHARE = 0.01, 1e-3
 MAX_EXCHANGES = 3
+#: Of two markers an exchange changes no distance.
+FEWEST_MARKERS = 3
 #: What the numbers of mended rows are called in descriptions and data cards.
 RELABELLED = "relabelled_rows"
 Orders = NDArray[np.int64]
@@ -47,13 +49,15 @@ def orders_of(positions: Array, train: Array) -> Orders:
     the distances of `train`; that of the file where nothing is to be mended.
     """
     n_markers = train.shape[1] // 3
+    result = np.tile(np.arange(n_markers), (len(positions), 1))
+    if n_markers < FEWEST_MARKERS:
+        return result
     pairs = np.array(list(combinations(range(n_markers), 2)), dtype=np.int64).reshape(-1, 2)
     known = _distances(train, pairs)
     middle = np.median(known, axis=0)
     spread = 1.4826 * np.median(np.abs(known - middle), axis=0)
     scale = np.maximum(spread, np.maximum(LEAST_SCALE * middle, LEAST_SHARE * middle.max()))
     usual = _usual_places(train.reshape(len(train), n_markers, 3))
-    result = np.tile(np.arange(n_markers), (len(positions), 1))
     if not scale.min() > 0:
         return result
     for part in chunks(len(positions)):

@@ -35,6 +35,12 @@ def test_all_subsets_are_mended_by_what_train_shows(arm: dict[str, Samples]) -> 
     np.testing.assert_array_equal(mended["test"].positions, arm["test"].positions)
 
 
+@pytest.mark.parametrize("n_markers", [1, 2])
+def test_one_or_two_markers_have_no_other_order(n_markers: int) -> None:
+    positions = np.random.default_rng(0).normal(size=(40, 3 * n_markers))
+    assert not is_swapped(orders_of(positions, positions)).any()
+
+
 def test_markers_that_stand_on_each_other_are_left_alone() -> None:
     positions = np.ones((5, 9))
     assert not is_swapped(orders_of(positions, positions)).any()

@@ -8,7 +8,7 @@ import numpy as np
 
 from softkin.core.samples import TRAIN, Samples
 from softkin.data.audit.findings import WARNING, CheckResult, counted, finding_of_rows
-from softkin.data.marker_order import is_swapped, orders_of
+from softkin.data.marker_order import FEWEST_MARKERS, is_swapped, orders_of
 
 MAX_MARKERS, FEWEST_ROWS = 24, 20
 
@@ -16,8 +16,10 @@ MAX_MARKERS, FEWEST_ROWS = 24, 20
 def check(samples: Mapping[str, Samples]) -> CheckResult:
     """At most one finding, on all subsets."""
     n_markers = samples[TRAIN].positions.shape[1] // 3
-    if not 3 <= n_markers <= MAX_MARKERS or len(samples[TRAIN]) < FEWEST_ROWS:
-        return CheckResult((), {"not_measured": f"3 to {MAX_MARKERS} markers and {FEWEST_ROWS} rows are needed"})
+    if not FEWEST_MARKERS <= n_markers <= MAX_MARKERS or len(samples[TRAIN]) < FEWEST_ROWS:
+        return CheckResult(
+            (), {"not_measured": f"{FEWEST_MARKERS} to {MAX_MARKERS} markers and {FEWEST_ROWS} rows are needed"}
+        )
     orders = {subset: orders_of(rows.positions, samples[TRAIN].positions) for subset, rows in samples.items()}
     marked = {subset: is_swapped(order) for subset, order in orders.items()}
     numbers = {"rows": {subset: int(mask.sum()) for subset, mask in marked.items()}}
