@@ -78,8 +78,8 @@ def calibration_rows(block: NDArray[np.int64], seed: int = 0) -> tuple[NDArray[n
     n_rows = int(min(counts.max(), max(1, MAX_ROWS // len(counts))))
     rng = np.random.default_rng(seed)
     rows = []
-    for code, count in enumerate(counts):
-        own = np.flatnonzero(codes == code)
+    in_blocks = np.split(np.argsort(codes, kind="stable"), np.cumsum(counts)[:-1])
+    for own, count in zip(in_blocks, counts, strict=True):
         rows += [np.tile(own, n_rows // count), rng.permutation(own)[: n_rows % count]]
     return np.concatenate(rows).astype(np.intp), Promise(len(counts), n_rows)
 
