@@ -210,6 +210,7 @@ class _Wish:
         """The answers: what the errors of the marker on the calibration set promise around each predicted position."""
         whole = np.asarray(self.robot.predict(inputs))
         intervals = np.asarray(self.robot.intervals(inputs, self.level, whole))[:, self.own]
+        regular = self.robot._prepared.bounds(inputs, (self.level,), whole)[0][:, self.own]
         positions = whole[:, self.own]
         off = positions - self.targets
         residual = np.linalg.norm(off, axis=1)
@@ -218,11 +219,13 @@ class _Wish:
         by_block = promise is not None and promise.n_blocks > 1
         (level,) = asked_levels(promise, [self.level])
         n_places = (promise.n_blocks + 1) * promise.n_rows if by_block else len(self.errors) + 1
+        regularly = self._stretch(regular, positions, level)
         for row, stretch in enumerate(self._stretch(intervals, positions, level)):
             distances = np.linalg.norm(off[row] + self.errors * stretch, axis=1)
             distances = np.where(np.isfinite(stretch).all(), distances, np.inf)
             within[row] = conformal_limit(distances, level)
-            radius[row] = conformal_limit(np.linalg.norm(self.errors * stretch, axis=1), level)
+            # Where a pose may fail its intervals hold failed poses, which bring no target nearer.
+            radius[row] = conformal_limit(np.linalg.norm(self.errors * regularly[row], axis=1), level)
             probability[row] = 0.0 if self.tolerance is None else (distances <= self.tolerance).sum() / n_places
         radius = np.where(np.isfinite(radius), radius, 0.0)
         verdict = np.where(residual <= np.maximum(radius, self.close_mm), REACHABLE, NEAREST)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cache
 from typing import Any
+from unittest.mock import Mock
 
 import numpy as np
 import pandas as pd
@@ -15,6 +16,7 @@ from softkin.core.samples import Array, Samples
 from softkin.models import MODELS
 from softkin.training.kinematic_model import FitSettings, fitted_model
 from softkin.uncertainty.calibrated import FittedModel, calibrated
+from softkin.uncertainty.failures import FailureClass
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from softkin.uncertainty.inverse import NEAREST, OUTSIDE, REACHABLE
 from softkin.uncertainty.promise import Promise
@@ -67,6 +69,20 @@ def test_what_cannot_be_reached_is_approached_within_the_bounds() -> None:
     assert (beside.verdict == NEAREST).all()
     assert (beside.residual_mm < 2).all()
     assert (beside.residual_mm > 1).all()
+
+
+def test_where_a_pose_may_fail_a_target_beside_it_is_not_reachable() -> None:
+    """Intervals hold the failed poses there; how near the robot comes where it does not fail stays as it was."""
+    failures = Mock(spec=FailureClass)
+    failures.may_fail.return_value = np.ones((1, 3), dtype=bool)
+    failures.widened.side_effect = lambda bounds, *_: bounds + np.array([-100.0, 100.0])
+    failing = replace(ROBOT, failures=failures)
+    targets = ROBOT.predict(INSIDE[:3]) + np.array([0.0, 0.0, 2.0])
+    found, regular = failing.command_for(targets), ROBOT.command_for(targets)
+    np.testing.assert_array_equal(found.commands, regular.commands)
+    np.testing.assert_array_equal(found.verdict, regular.verdict)
+    assert (found.verdict == NEAREST).all()
+    assert (found.within_mm > regular.within_mm + 50).all()
 
 
 def test_a_simulated_robot_is_within_what_is_promised() -> None:
