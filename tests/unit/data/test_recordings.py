@@ -65,7 +65,9 @@ def test_what_is_no_recording_is_an_error() -> None:
 @pytest.mark.parametrize("missing", ["refuse", "drop_rows"])
 @pytest.mark.parametrize("column", ["t", "trial"])
 def test_a_row_that_is_kept_has_its_order_and_session(tmp_path: Path, missing: str, column: str) -> None:
-    rows = [{"t": n, "trial": 1 + n // 30, "u": n % 7 / 7, "x": n, "y": n**2 % 11, "z": 1} for n in range(60)]
+    rows: list[dict[str, float | None]] = [
+        {"t": n, "trial": 1 + n // 30, "u": n % 7 / 7, "x": n, "y": n**2 % 11, "z": 1} for n in range(60)
+    ]
     rows[5] |= {column: None}
     (tmp_path / "arm.json").write_text(json.dumps(rows), encoding="utf-8")
     entry = {"commands": ["u"], "positions": ["x", "y", "z"], "split": {"method": "later"}, "position_unit": "mm"}
