@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from softkin.core.samples import Samples
-from softkin.evaluation.score_regions import coverage_row
+from softkin.evaluation.score_regions import JOINT, coverage_row
 from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.regions.spec import JOINT_INTERVALS
 
@@ -21,6 +21,8 @@ def joint_rows(
     The size is the median over rows of the side (mm) of a cube of the same volume: where rows may fail it is huge.
     Recorded rows are told their session and memory. `samples` is subset -> rows, of test and extrapolation.
     """
+    promise = robot.joint.promise
+    guarantees = [JOINT if promise is None else promise.of_region(JOINT, level) for level in confidence_levels]
     for subset, rows in samples.items():
         regions = robot.joint_intervals(rows.inputs, confidence_levels)
         held, sizes = np.asarray(regions.contains(rows.positions)), regions.sizes_mm
@@ -29,9 +31,7 @@ def joint_rows(
                 "model": robot.spec.name,
                 "preset": robot.preset,
                 "interval_method": JOINT_INTERVALS,
-                **coverage_row(
-                    subset, level, held[place], len(robot.joint.scores), rows.block, promise=robot.joint.promise
-                ),
+                **coverage_row(subset, level, held[place], len(robot.joint.scores), rows.block, guarantees[place]),
                 "infinite_share": float(np.isinf(sizes[place]).mean()),
                 "size_mm": float(np.median(sizes[place])),
                 "shape": regions.kind,

@@ -18,7 +18,7 @@ from softkin.core.samples import TEST, TRAIN, VALIDATION, Array, Samples, inform
 from softkin.uncertainty.conformal import conformal_rank, error_scale, joint_scores, p_values
 from softkin.uncertainty.intervals.spec import NO_GUARANTEE
 from softkin.uncertainty.promise import Promise
-from softkin.uncertainty.regions.spec import RegionMethod
+from softkin.uncertainty.regions.spec import RegionMethod, divided
 from softkin.uncertainty.stored_outputs import INTERVAL_SUBSETS, StoredOutputs, predicted_rows
 
 #: Displacements (mm) of the whole robot at which the rate of alarms is measured; 0 gives the false alarms.
@@ -85,12 +85,15 @@ def _coverages(
     promise: Promise | None,
 ) -> Iterator[dict[str, Any]]:
     """A row per subset of one region at one level; with a `promise` it is calibrated on blocks."""
-    asked = level if promise is None else promise.asked(level)
+    asked, guarantee = level, JOINT if method.is_exact else AT_LEAST
+    if promise is not None:
+        n_parts = len(markers) if method.is_divided else 1
+        single = divided(level, n_parts)
+        asked, guarantee = 1 - n_parts * (1 - promise.asked(single)), promise.of_region(guarantee, single)
     region = method.region(residuals[TRAIN], residuals[VALIDATION], markers, asked)
-    kind = JOINT if method.is_exact else AT_LEAST
     for subset in INTERVAL_SUBSETS:
         is_covered, n_calibration = region.covers(residuals[subset]), len(residuals[VALIDATION])
-        row = coverage_row(subset, level, is_covered, n_calibration, blocks[subset], kind, promise)
+        row = coverage_row(subset, level, is_covered, n_calibration, blocks[subset], guarantee)
         yield row | {"infinite_share": float(np.isinf(region.size_mm)), "size_mm": region.size_mm}
 
 
@@ -100,8 +103,7 @@ def coverage_row(
     is_covered: NDArray[np.bool_],
     n_calibration: int,
     block: NDArray[np.int64] | None,
-    guarantee: str = JOINT,
-    promise: Promise | None = None,
+    guarantee: str,
 ) -> dict[str, Any]:
     """The coverage of a joint region on the rows of a subset, beside its exact band where it has one there.
 
@@ -111,17 +113,15 @@ def coverage_row(
         is_covered: whether it holds each row (n_rows,).
         n_calibration: rows that it is calibrated on.
         block: the held-out block of each row (n_rows,); None where there are none.
-        guarantee: on rows of `test`, where rows are exchangeable.
-        promise: of blocks, where these are exchangeable; None where rows are.
+        guarantee: on rows of `test`; the band is that of `JOINT`.
     """
     n_rows, n_covered = len(is_covered), int(is_covered.sum())
-    rank = conformal_rank(n_calibration, level) if promise is None else None
+    rank = conformal_rank(n_calibration, level)
     low, high = clopper_pearson(n_covered, n_rows)
     p_value = float("nan")
     if subset == TEST and guarantee == JOINT and rank is not None:
         low, high = coverage_band(n_rows, n_calibration, rank)
         p_value = coverage_p_value(n_covered, n_rows, n_calibration, rank)
-    promised = guarantee if promise is None else promise.of_region(guarantee, level)
     return {
         "subset": subset,
         "confidence_level": level,
@@ -130,7 +130,7 @@ def coverage_row(
         "coordinate": "joint",
         "coverage": covered_share(is_covered, block),
         "crossing_share": 0.0,
-        "guarantee": promised if subset == TEST else NO_GUARANTEE,
+        "guarantee": guarantee if subset == TEST else NO_GUARANTEE,
         "coverage_low": low,
         "coverage_high": high,
         "coverage_p_value": p_value,

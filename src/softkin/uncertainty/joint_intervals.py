@@ -21,6 +21,7 @@ from softkin.uncertainty.conformal import conformal_limits
 from softkin.uncertainty.new_session import unseen_zero
 from softkin.uncertainty.promise import asked_levels
 from softkin.uncertainty.recalibration import PRIOR_POSES
+from softkin.uncertainty.regions.spec import divided
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -186,7 +187,7 @@ class JointAnswers:
 
     def _single(self, levels: Sequence[float]) -> list[float]:
         """The level of each coordinate at which all are held at each of these levels, by Bonferroni."""
-        return [1 - (1 - level) / int(self.robot.joint.moving.sum()) for level in levels]
+        return [divided(level, int(self.robot.joint.moving.sum())) for level in levels]
 
     def _matrices(self, matrix: Array, size: Array) -> Array:
         """Matrices (n_levels, n_rows, n_markers, 3, 3) in mm2: the blocks of `matrix` times `size` (n_levels, n_rows,

@@ -9,7 +9,14 @@ import pytest
 from softkin.core.runs import Run
 from softkin.core.samples import EXTRAPOLATION, SUBSETS, TEST, TRAIN, VALIDATION, Array
 from softkin.data.table import read_subset
-from softkin.evaluation.score_regions import alarm_rates, coverage_row, covered_share, region_rows, score_alarms
+from softkin.evaluation.score_regions import (
+    alarm_rates,
+    coverage_row,
+    covered_share,
+    moving_residuals,
+    region_rows,
+    score_alarms,
+)
 from softkin.uncertainty.promise import Promise
 from softkin.uncertainty.regions import REGION_METHODS
 from softkin.uncertainty.stored_outputs import StoredOutputs
@@ -76,8 +83,27 @@ def test_the_coverage_of_held_out_blocks_is_their_mean() -> None:
 
 def test_a_region_covers_blocks_as_often_as_their_mean() -> None:
     blocks = np.repeat([0, 1], [6, 2])
-    row = coverage_row(TEST, 0.9, np.repeat([True, False], [6, 2]), 40, blocks, promise=Promise(12, 5))
+    row = coverage_row(TEST, 0.9, np.repeat([True, False], [6, 2]), 40, blocks, "joint, by block")
     assert (row["coverage"], row["guarantee"]) == (0.5, "joint, by block")
+
+
+@pytest.mark.parametrize(("level", "promised"), [(0.47, True), (0.9, False)])
+def test_divided_among_coordinates_each_counts_blocks(
+    table: Path, outputs: StoredOutputs, level: float, promised: bool
+) -> None:
+    """Of K blocks of M rows each of three coordinates asks for the rank c (K + 1) M at its own level c, if there is."""
+    samples = {subset: read_subset(table, subset) for subset in SUBSETS}
+    n_blocks = len(samples[VALIDATION]) // 2
+    outputs.promise, outputs.levels = Promise(n_blocks, 2), [level]
+    outputs.calibrated = np.arange(2 * n_blocks)
+    rows = region_rows(outputs, samples, {"joint_bonferroni": REGION_METHODS["joint_bonferroni"]})
+    row = next(row for row in rows if row["subset"] == TEST)
+    single = 1 - (1 - level) / 3
+    rank = int(np.ceil(single * (n_blocks + 1) * 2))
+    assert (row["guarantee"] == "joint, at least, by block") is promised is (rank <= 2 * n_blocks)
+    (_, errors) = next(moving_residuals(outputs, {subset: of.positions for subset, of in samples.items()}))
+    sides = 2 * np.sort(np.abs(errors[VALIDATION]), axis=0)[min(rank, 2 * n_blocks) - 1]
+    assert row["size_mm"] == pytest.approx(np.exp(np.log(sides).mean()))
 
 
 def test_alarms_are_written(table: Path, outputs: StoredOutputs, tmp_path: Path) -> None:

@@ -7,13 +7,12 @@ from numpy.typing import NDArray
 
 from softkin.core.samples import Array
 from softkin.uncertainty.conformal import conformal_limit
-from softkin.uncertainty.regions.spec import Region, RegionMethod
+from softkin.uncertainty.regions.spec import Region, RegionMethod, divided
 
 
 def region(train_residuals: Array, residuals: Array, markers: NDArray[np.intp], confidence_level: float) -> Region:  # noqa: ARG001
     """Joint coverage is at least the nominal level, for any dependence of coordinates, and often far above it."""
-    n_coordinates = residuals.shape[1]
-    single = 1 - (1 - confidence_level) / n_coordinates
+    single = divided(confidence_level, residuals.shape[1])
     limits = np.array([conformal_limit(np.abs(column), single) for column in residuals.T])
     # A coordinate without any error would make the volume 0, whatever the others.
     sides = np.maximum(2 * limits, np.finfo(float).tiny)
@@ -23,4 +22,4 @@ def region(train_residuals: Array, residuals: Array, markers: NDArray[np.intp], 
     )
 
 
-METHOD = RegionMethod("joint_bonferroni", "Bonferroni", is_exact=False, region=region)
+METHOD = RegionMethod("joint_bonferroni", "Bonferroni", is_exact=False, region=region, is_divided=True)

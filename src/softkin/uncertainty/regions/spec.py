@@ -64,12 +64,19 @@ class RegionMethod:
     `region(train_residuals, calibration_residuals, markers, confidence_level)`: residuals (n_rows, n_coordinates) in
     mm of the moving coordinates; `markers` (n_coordinates,) says which marker each belongs to. `is_exact`: its joint
     coverage has the beta-binomial distribution of a conformal rank; else it is at least the nominal level.
+    `is_divided`: each coordinate has its own rank, at the miscoverage divided by their number.
     """
 
     name: str
     title: str
     is_exact: bool
     region: Callable[[Array, Array, NDArray[np.intp], float], Region]
+    is_divided: bool = False
+
+
+def divided(confidence_level: float, n_parts: int) -> float:
+    """The level of each of `n_parts` that all hold at the level at least (Bonferroni)."""
+    return 1 - (1 - confidence_level) / n_parts if n_parts > 1 else confidence_level
 
 
 def of_shape(shape: Shape, residuals: Array, confidence_level: float) -> Region:
