@@ -132,6 +132,7 @@ def test_a_reader_is_decided_by_the_files_that_it_reads_with() -> None:
     expected |= {
         "data/own_files.py",
         "data/blocks.py",
+        "data/missing_values.py",
         "core/recording.py",
         "data/recordings.py",
         "data/split_in_time.py",
