@@ -25,7 +25,7 @@ export XDG_CACHE_HOME := $(CURDIR)/.venv/cache
 export MPLCONFIGDIR := $(CURDIR)/.venv/cache/matplotlib
 endif
 
-.PHONY: help run demo campaign refit schedule prune unlock new-robot test test-workflow test-others test-run lint ui store report verify
+.PHONY: help run demo campaign refit schedule prune unlock new-robot test test-workflow test-units test-contracts test-run lint ui store report verify
 .PHONY: gallery numbers results-page single-rows
 .PHONY: snakemake-report campaigns campaign-slurm coverage standins timings benchmark benchmark-large benchmark-pruning benchmark-shells
 .PHONY: benchmark-figures benchmark-two-files benchmark-commands benchmark-many-robots benchmark-recalibration benchmark-choice benchmark-promises
@@ -60,17 +60,21 @@ new-robot: .venv/installed
 	@$(BIN)/python -m softkin.cli.new_robot $${NAME:+--name="$$NAME"} $${HEADER:+--header="$$HEADER"} $${DELIMITER:+--delimiter="$$DELIMITER"} \
 	  $${SHEET:+--sheet="$$SHEET"} $${JOIN:+--join="$$JOIN"} $${ANSWER:+--answer="$$ANSWER"} $${WRITE:+--write} -- "$$FILE" $${POSITIONS:+"$$POSITIONS"}
 
-# All tests but the long ones. Those of the workflow wait for one run of it, beside all others.
+# All tests but the long ones. Two of the three parts at a time: those of the workflow wait for one run of it.
 test: .venv/installed-dev
-	$(MAKE) --no-print-directory -j 2 test-workflow test-others
+	$(MAKE) --no-print-directory -j 2 test-workflow test-units test-contracts
 
 # The tests that run the workflow.
 test-workflow: .venv/installed-dev
 	$(BIN)/pytest -m "not slow" tests/workflow
 
-# All other tests.
-test-others: .venv/installed-dev
-	$(BIN)/pytest -m "not slow" --ignore tests/workflow
+# The tests of each module, and all that have no part of their own.
+test-units: .venv/installed-dev
+	$(BIN)/pytest -m "not slow" --ignore tests/workflow --ignore tests/contract --ignore tests/tools
+
+# The tests of every entry of a registry, of messages and of pages.
+test-contracts: .venv/installed-dev
+	$(BIN)/pytest -m "not slow" tests/contract tests/tools
 
 # The workflow on the configuration of the tests, in results/test-run.
 test-run: .venv/installed

@@ -12,7 +12,7 @@ from pathlib import Path
 from softkin.core.files import write_text
 from tests.conftest import HOUSE
 from tests.contract.bad_inputs import CASES
-from tests.contract.bad_inputs.case import BadInput, message
+from tests.contract.bad_inputs.case import answer, message
 
 PAGE = HOUSE / "docs" / "bad_inputs.md"
 PREFACE = """\
@@ -26,16 +26,23 @@ concerns the configuration is refused before any job starts, what concerns a fil
 
 def page(folder: Path) -> str:
     """The text of the page; the inputs are made in `folder`."""
-    parts = [PREFACE.format(count=sum(map(len, CASES.values())))]
+    parts = [preface()]
     for number, (heading, cases) in enumerate(CASES.items()):
-        rows = [_row(case, folder / f"{number}_{place}") for place, case in enumerate(cases)]
+        places = [folder / f"{number}_{place}" for place in range(len(cases))]
+        rows = [row(case.what, message(answer(case, place), place)) for case, place in zip(cases, places, strict=True)]
         parts.append("\n".join([f"## {heading}", "", "| input | message |", "| --- | --- |", *rows]) + "\n")
     return "\n".join(parts)
 
 
-def _row(case: BadInput, folder: Path) -> str:
-    lines = [f"`` {' '.join(line.split())} ``" for line in message(case, folder).replace("|", "\\|").splitlines()]
-    return f"| {case.what} | {'<br>'.join(lines)} |"
+def preface() -> str:
+    """What stands above the tables."""
+    return PREFACE.format(count=sum(map(len, CASES.values())))
+
+
+def row(what: str, said: str) -> str:
+    """The row of an input: what is wrong with it, and the message that it gets."""
+    lines = [f"`` {' '.join(line.split())} ``" for line in said.replace("|", "\\|").splitlines()]
+    return f"| {what} | {'<br>'.join(lines)} |"
 
 
 def main() -> None:

@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 from tests.contract.bad_inputs import CASES
-from tests.contract.bad_inputs.case import BadInput, answer
+from tests.contract.bad_inputs.case import BadInput, answer, message
+from tools.bad_inputs_page import PAGE, row
 
 ALL = [(heading, case) for heading, cases in CASES.items() for case in cases]
 
@@ -28,3 +29,5 @@ def test_a_bad_input_has_one_message_with_place_and_fix(case: BadInput, tmp_path
     assert len(problems) == (2 if error.where.startswith("configuration") else 1), "one mistake, one line"
     assert max(map(len, problems)) <= 320
     assert "Traceback" not in str(error)
+    line = row(case.what, message(error, tmp_path))
+    assert line in PAGE.read_text().splitlines(), "bring the page up to date: make bad-inputs-page"

@@ -9,8 +9,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-import pytest
-
 from tests.conftest import HOUSE
 
 #: Template -> package that it is copied to, registry, suite.
@@ -40,14 +38,13 @@ def register(source: Path, template: str) -> str:
     return name
 
 
-@pytest.mark.parametrize("template", TEMPLATES)
-def test_a_copied_template_keeps_the_contract(template: str, tmp_path: Path) -> None:
+def test_copied_templates_keep_their_contracts(tmp_path: Path) -> None:
     source = tmp_path / "softkin"
     shutil.copytree(HOUSE / "src" / "softkin", source, ignore=shutil.ignore_patterns("__pycache__"))
-    name = register(source, template)
-    suite = HOUSE / "tests" / "contract" / TEMPLATES[template][2]
+    names = [register(source, template) for template in TEMPLATES]
+    suites = [str(HOUSE / "tests" / "contract" / suite) for _, _, suite in TEMPLATES.values()]
     done = subprocess.run(
-        [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", str(suite), "-k", name],
+        [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "-vv", *suites, "-k", " or ".join(names)],
         env=os.environ | {"PYTHONPATH": str(tmp_path), "PYTHONDONTWRITEBYTECODE": "1"},
         cwd=HOUSE,
         capture_output=True,
@@ -55,6 +52,8 @@ def test_a_copied_template_keeps_the_contract(template: str, tmp_path: Path) -> 
         check=False,
     )
     assert done.returncode == 0, done.stdout + done.stderr
+    for name, suite in zip(names, suites, strict=True):
+        assert re.search(rf"{Path(suite).name}::\S*{name}\S* PASSED", done.stdout), f"{suite} has no test of {name}"
 
 
 def test_every_template_is_tested() -> None:

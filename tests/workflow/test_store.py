@@ -112,13 +112,14 @@ def test_the_store_is_made_again_from_results_with_the_same_content(house: House
     assert {name: (before[name], after[name]) for name in before if after[name] != before[name]} == {}
 
 
-@pytest.fixture(params=[sqlite, pytest.param(postgresql, marks=pytest.mark.slow)])
+@pytest.fixture(params=[sqlite, postgresql])
 def server(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[str]:
     """URI of an MLflow server with a database behind it, that keeps the artifacts too."""
     with request.param(tmp_path) as database, serving(database, tmp_path) as running:
         yield running.uri
 
 
+@pytest.mark.slow
 def test_a_server_takes_the_place_of_the_file(house: House, server: str, tmp_path: Path) -> None:
     """One dataset's results, tracked to a server by an environment variable alone."""
     elsewhere = without_its_store(house, tmp_path / "work")

@@ -44,9 +44,9 @@ def answer(case: BadInput, folder: Path) -> SoftkinError:
     raise AssertionError(f"accepted: {case.what}")
 
 
-def message(case: BadInput, folder: Path) -> str:
-    """The text of the answer, without the folders of this machine."""
-    return str(answer(case, folder)).replace(f"{folder}{os.sep}", "").replace(f"{HOUSE}{os.sep}", "")
+def message(error: SoftkinError, folder: Path) -> str:
+    """The text of an answer, without the folders of this machine."""
+    return str(error).replace(f"{folder}{os.sep}", "").replace(f"{HOUSE}{os.sep}", "")
 
 
 @cache

@@ -9,18 +9,20 @@ import pytest
 
 from softkin.core.bounds import read_bounds
 from softkin.core.files import read_json
-from softkin.core.samples import Samples
+from softkin.core.samples import Params, Samples
 from softkin.data.table import read_subset
 from softkin.models.quantile import QUANTILE_MODELS
 from softkin.training.fit_quantiles import QuantileFiles, QuantileModel, fit_quantiles, quantiles_of
 from tests.conftest import bending_arm
 
 LEVELS = [0.8, 0.9]
+#: Where the number of trees decides nothing.
+FEW_TREES = {"n_estimators": 10}
 
 
-def model(name: str, samples: Samples, levels: list[float] = LEVELS) -> QuantileModel:
+def model(name: str, samples: Samples, levels: list[float], more: Params | None = None) -> QuantileModel:
     spec = QUANTILE_MODELS[name]
-    return QuantileModel(spec, spec.paper_params, levels, seed=0, threads=1).fit(samples)
+    return QuantileModel(spec, spec.paper_params | (more or {}), levels, seed=0, threads=1).fit(samples)
 
 
 def test_each_level_asks_for_two_quantiles_in_short_decimals() -> None:
@@ -42,7 +44,7 @@ def test_quantiles_hold_about_their_share_of_noise(name: str) -> None:
 @pytest.mark.parametrize("name", QUANTILE_MODELS)
 def test_a_constant_coordinate_has_its_constant_as_quantiles(name: str) -> None:
     rows = bending_arm(60, n_commands=3, n_markers=2)
-    predicted = model(name, rows).predict(rows.commands)
+    predicted = model(name, rows, LEVELS, FEW_TREES).predict(rows.commands)
     assert predicted.shape == (2, 60, 6, 2)
     np.testing.assert_array_equal(predicted[:, :, :3], np.broadcast_to(rows.positions[:, :3, None], (2, 60, 3, 2)))
 
@@ -55,12 +57,12 @@ def test_only_train_is_fitted_on_and_files_round_trip(
     for place, path in enumerate((table, garbage_table)):
         folder = tmp_path / str(place)
         files = QuantileFiles(folder / "m.joblib", folder / "q.parquet", folder / "r.json")
-        regressor = QuantileModel(QUANTILE_MODELS[name], {}, LEVELS, seed=0, threads=1)
+        regressor = QuantileModel(QUANTILE_MODELS[name], FEW_TREES, LEVELS, seed=0, threads=1)
         fit_quantiles(path, regressor=regressor, files=files)
         outputs.append(pd.read_parquet(files.quantiles))
         record = read_json(files.record)
         assert record["fit_seconds"] > 0
-        assert record["params"] == {}
+        assert record["params"] == FEW_TREES
     pd.testing.assert_frame_equal(*outputs)
     stored = joblib.load(tmp_path / "0" / "m.joblib").predict(read_subset(table, "test").commands)
     np.testing.assert_array_equal(read_bounds(outputs[0], "test", LEVELS), stored)

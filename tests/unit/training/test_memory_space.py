@@ -79,7 +79,7 @@ def chosen(rows: Samples, folder: Path) -> tuple[dict[str, Any], float]:
     return best["memory"], best["cv_mae_mm"]
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.slow)])
 def test_a_robot_without_memory_gets_none_and_loses_nothing(tmp_path: Path, seed: int) -> None:
     rows = recorded_arm(300, seed=seed)
     memory, error = chosen(rows, tmp_path)

@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from softkin.uncertainty.calibration_data import Shell, ShellCalibration
@@ -18,9 +18,9 @@ def test_intervals_lie_around_the_deployed_model() -> None:
 
 
 def test_intervals_cover_in_extrapolation_where_errors_grow_as_modelled() -> None:
-    """300 robots: errors at distance 1 to 1.5 beyond `train` grow as in the shells."""
+    """100 robots: errors at distance 1 to 1.5 beyond `train` grow as in the shells."""
     shares = []
-    for seed in range(300):
+    for seed in range(100):
         rng = np.random.default_rng(1000 + seed)
         angles, radii = rng.uniform(0, 2 * np.pi, 100), rng.uniform(1.45, 2.0, 100)
         new = np.column_stack([radii * np.cos(angles), radii * np.sin(angles)])
@@ -44,7 +44,9 @@ def test_intervals_never_narrow_along_a_ray_that_leaves_the_core(
     steps = np.linspace(0, 6, 60)[:, None]
     ray = np.asarray(start) + steps * [np.cos(angle), np.sin(angle)]
     data = shells_with_growing_errors(core_exponent, slope, ray)
-    left = norm(ray) > norm(data.deployed.train_commands).max()
+    farthest = norm(data.deployed.train_commands).max()
+    assume(norm(ray[:1])[0] <= farthest)  # one that starts outside may come nearer first
+    left = norm(ray) > farthest
     widths = half_widths(data, [0.8, 0.9])[:, left]
     assert len(widths[0])
     assert (np.diff(widths, axis=1) >= -1e-9 * widths[:, :-1]).all()
