@@ -130,8 +130,11 @@ gallery: .venv/installed
 snakemake-report: .venv/installed
 	$(BIN)/snakemake --report results/snakemake_report.html
 
-# Long statistical and fault campaigns. PyElastica, which brings a compiler, and PostgreSQL are installed for them only.
+# Long statistical and fault campaigns. PyElastica, which brings a compiler, and PostgreSQL are installed for them only;
+# roc-validator gets an environment of its own, since typer prints otherwise where its packages are.
 campaigns: .venv/installed-dev
+	test -e .venv/roc-validator/bin/rocrate-validator || $(BIN)/python -m venv .venv/roc-validator
+	.venv/roc-validator/bin/pip install --quiet --disable-pip-version-check roc-validator==0.13.0
 	$(BIN)/pip install --quiet --disable-pip-version-check pyelastica==1.0.0 pgserver==0.1.4 psycopg2-binary==2.9.13
 	$(BIN)/pytest -m slow
 

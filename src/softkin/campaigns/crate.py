@@ -1,7 +1,6 @@
 """Describe the results of a run as a Workflow Run RO-Crate: the files a workflow made, from what, when, their hashes.
 
-The profile is https://w3id.org/ro/wfrun/workflow/0.5, of RO-Crate 1.1. `rocrate-validator` found no fault in it where
-it was given the contexts that it downloads otherwise; no test runs it.
+The profile is https://w3id.org/ro/wfrun/workflow/0.5, of RO-Crate 1.1; `make campaigns` asks `roc-validator`.
 """
 
 from __future__ import annotations
