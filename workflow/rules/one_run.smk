@@ -65,5 +65,7 @@ if workflow.is_main_process and not only_looks(sys.argv):
     RUN = OneRun.of(Path.cwd())
     take_folder()
 if workflow.is_main_process:
-    for damaged in redo_damaged(only_say=only_looks(sys.argv)):
+    # Of the jobs of unknown params rules/other_params.smk asks, when all rules are there.
+    DAMAGED, OF_UNKNOWN_PARAMS = redo_damaged(only_say=only_looks(sys.argv))
+    for damaged in DAMAGED:
         print(f"softkin: {damaged}.", file=sys.stderr)

@@ -30,5 +30,6 @@ def params_of(words):
 
 
 if workflow.is_main_process:
-    for changed in redo_changed(params_of, only_say=only_looks(sys.argv)):
+    only_say = only_looks(sys.argv)
+    for changed in redo_changed(OF_UNKNOWN_PARAMS, params_of, only_say=only_say):
         print(f"softkin: {changed}.", file=sys.stderr)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import json
 from base64 import urlsafe_b64encode
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from softkin.core.job_params import other_params
-from softkin.core.job_records import Damage, damages, records
+from softkin.core.job_records import Damage, Records, damages, records
 
 RESULTS = Path("results")
 #: Where Snakemake (9.27.1) keeps a file for each output that a job has not finished: it is made anew.
@@ -20,40 +21,63 @@ FINISHED = Path(".snakemake") / "metadata"
 MOST_NAMED = 10
 
 
-def redo_damaged(*, only_say: bool) -> Iterator[str]:
-    """Mark every output that is not as it was written as unfinished, and say so; `only_say` marks none.
+@dataclass(frozen=True, slots=True)
+class Unknown:
+    """A job of whose params Snakemake has lost its record: its words (`fit_model finger gp`), the hashes of the params
+    that it had, and the outputs that this is true of.
+    """
+
+    job: str
+    params: Mapping[str, str]
+    outputs: Sequence[Path]
+
+
+def redo_damaged(*, only_say: bool) -> tuple[list[str], list[Unknown]]:
+    """Mark every output that is not as it was written as unfinished; `only_say` marks none.
 
     What was made from it is made anew, too, where its content was another: Snakemake knows the hashes of inputs.
+
+    Returns:
+        What is wrong, in sentences, and what `redo_changed` looks at: the records of the jobs are read once.
     """
-    found = list(damages(RESULTS, thorough=False))
+    unknown: list[Unknown] = []
+    found = list(damages(RESULTS, thorough=False, known=_noting(unknown)))
     if not only_say:
         for output in {damage.output for damage in found}:
             _mark(output)
-    yield from (f"{sentence}; it is made anew" for sentence in sentences(found))
+    return [f"{sentence}; it is made anew" for sentence in sentences(found)], unknown
 
 
-def redo_changed(params_of: Callable[[str], Mapping[str, Any] | None], *, only_say: bool) -> Iterator[str]:
+def _noting(unknown: list[Unknown]) -> Records:
+    """The records of all jobs; those whose params Snakemake does not know are noted."""
+    for record, content in records(RESULTS):
+        if content is not None and content.get("params"):
+            outputs = {Path(entry["output"]) for entry in content["files"].values()}
+            # A folder that is gone was removed on purpose, with all that is in it.
+            lost = [output for output in outputs if not _place(FINISHED, output).exists() and output.parent.is_dir()]
+            if lost:
+                unknown.append(Unknown(content["job"], content["params"], lost))
+        yield record, content
+
+
+def redo_changed(
+    unknown: Iterable[Unknown], params_of: Callable[[str], Mapping[str, Any] | None], *, only_say: bool
+) -> Iterator[str]:
     """Mark every output that was made with other params as unfinished where Snakemake has lost its own record of them,
     and say so; `only_say` marks none.
 
     Parameters:
-        params_of: the words of a job (`fit_model finger gp`) -> its params now; None where there is no such job.
+        unknown: the jobs whose params Snakemake does not know, by `redo_damaged`.
+        params_of: the words of a job -> its params now; None where there is no such job.
         only_say: whether this run only looks.
     """
     found = []
-    for _, content in records(RESULTS):
-        if content is None or not content.get("params"):
-            continue
-        outputs = {Path(entry["output"]) for entry in content["files"].values()}
-        # A folder that is gone was removed on purpose, with all that is in it.
-        lost = [output for output in outputs if not _place(FINISHED, output).exists() and output.parent.is_dir()]
-        if not lost:
-            continue
-        params = params_of(content["job"])
-        others = [] if params is None else other_params(content["params"], params)
+    for job in unknown:
+        params = params_of(job.job)
+        others = [] if params is None else other_params(job.params, params)
         if others:
-            found.append(f"{content['job']} was done with other params ({', '.join(others)}); it is done anew")
-            for output in lost if not only_say else ():
+            found.append(f"{job.job} was done with other params ({', '.join(others)}); it is done anew")
+            for output in job.outputs if not only_say else ():
                 _mark(output)
     left = len(found) - MOST_NAMED
     yield from found[:MOST_NAMED]

@@ -19,6 +19,8 @@ from softkin.core.files import file_sha256, read_json, write_json
 from softkin.core.job_params import params_hashes
 
 FOLDER = "manifest"
+#: Records of jobs, each with its content; None where it is none.
+Records = Iterator[tuple[Path, dict[str, Any] | None]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,34 +112,34 @@ def check_recorded(path: str | Path, digest: str, recorded: str | None) -> None:
         )
 
 
-def damages(results: str | Path, *, thorough: bool) -> Iterator[Damage]:
-    """The files below `results` that are not as their jobs recorded them.
+def damages(results: str | Path, *, thorough: bool, known: Records | None = None) -> Iterator[Damage]:
+    """The files below `results` that are not as their jobs recorded them; `known`: its records where they are read.
 
     `thorough` reads every file. Otherwise those are read whose size or time has changed, and the times of those that
     turn out to be the same are recorded: a project that was moved is read once.
     """
     root = Path(results)
-    for record, content in records(root):
+    for record, content in records(root) if known is None else known:
         if content is None:
             continue
         new_times = False
-        for name, known in content["files"].items():
+        for name, entry in content["files"].items():
             path = root.parent / name
             what = None
             if not path.is_file():
                 # A folder that is gone was removed on purpose, with all that is in it.
                 what = "missing" if path.parent.is_dir() else None
-            elif thorough or _stamp(path) != {key: known[key] for key in ("bytes", "mtime_ns")}:
-                what = "changed" if file_sha256(path) != known["sha256"] else None
-                if what is None and known["mtime_ns"] != path.stat().st_mtime_ns:
-                    known["mtime_ns"], new_times = path.stat().st_mtime_ns, True
+            elif thorough or _stamp(path) != {key: entry[key] for key in ("bytes", "mtime_ns")}:
+                what = "changed" if file_sha256(path) != entry["sha256"] else None
+                if what is None and entry["mtime_ns"] != path.stat().st_mtime_ns:
+                    entry["mtime_ns"], new_times = path.stat().st_mtime_ns, True
             if what is not None:
-                yield Damage(path, what, root.parent / known["output"], content["job"])
+                yield Damage(path, what, root.parent / entry["output"], content["job"])
         if new_times and not thorough:
             write_json(record, content)
 
 
-def records(results: str | Path) -> Iterator[tuple[Path, dict[str, Any] | None]]:
+def records(results: str | Path) -> Records:
     """Each record of a job below `results`, with its content; None where it is none."""
     for record in sorted(Path(results, FOLDER).rglob("*.json")):
         yield record, read_record(record)

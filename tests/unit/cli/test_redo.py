@@ -2,14 +2,14 @@ from __future__ import annotations
 
 import shutil
 from base64 import urlsafe_b64encode
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from softkin.cli.redo import FINISHED, UNFINISHED, redo_changed, redo_damaged
-from softkin.core.job_records import record_job
+from softkin.core.job_records import read_record, record_job
 
 FILES = [Path(f"results/finger/{name}.csv") for name in "abcdefghijklm"]
 
@@ -23,26 +23,34 @@ def results(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     record_job("results/logs/score/finger.log", FILES)
 
 
+def damaged(*, only_say: bool) -> list[str]:
+    return redo_damaged(only_say=only_say)[0]
+
+
+def changed(params_of: Callable[[str], Mapping[str, Any] | None], *, only_say: bool) -> list[str]:
+    return list(redo_changed(redo_damaged(only_say=True)[1], params_of, only_say=only_say))
+
+
 def marked() -> set[str]:
     return {path.name for path in UNFINISHED.rglob("*") if path.is_file()}
 
 
 def test_nothing_is_said_or_done_where_all_is_as_it_was() -> None:
-    assert list(redo_damaged(only_say=False)) == []
+    assert damaged(only_say=False) == []
     assert marked() == set()
 
 
 def test_damaged_outputs_are_named_and_marked_as_snakemake_marks_them() -> None:
     FILES[0].write_text("1,2,4,\n")
     FILES[1].unlink()
-    assert list(redo_damaged(only_say=True)) == list(redo_damaged(only_say=False))
+    assert damaged(only_say=True) == damaged(only_say=False)
     assert marked() == {urlsafe_b64encode(str(path).encode()).decode() for path in FILES[:2]}
     assert FILES[1].read_text() == ""
 
 
 def test_a_dry_run_marks_nothing() -> None:
     FILES[1].unlink()
-    (said,) = redo_damaged(only_say=True)
+    (said,) = damaged(only_say=True)
     assert said == "results/finger/b.csv is gone (score finger); it is made anew"
     assert marked() == set()
     assert not FILES[1].exists()
@@ -51,7 +59,7 @@ def test_a_dry_run_marks_nothing() -> None:
 def test_of_many_files_the_first_are_named() -> None:
     for path in FILES:
         path.write_text("")
-    said = list(redo_damaged(only_say=False))
+    said = damaged(only_say=False)
     assert len(said) == 11
     assert said[-1] == "3 more files are gone or were changed; it is made anew"
     assert len(marked()) == len(FILES)
@@ -64,13 +72,13 @@ PARAMS: dict[str, dict[str, Any]] = {SCORE: {"seed": 1, "methods": ["qr"]}, FIT:
 def test_what_was_done_with_other_params_is_done_anew_where_snakemake_has_lost_its_records() -> None:
     record_job("results/logs/score/finger.log", FILES[:2], PARAMS[SCORE])
     record_job("results/logs/fit_model/finger/lr.log", FILES[2:3], PARAMS[FIT])
-    assert list(redo_changed(PARAMS.get, only_say=False)) == []
+    assert changed(PARAMS.get, only_say=False) == []
     assert marked() == set()
     now: Mapping[str, dict[str, Any]] = {SCORE: {"methods": ["qr", "cqr"], "regions": []}}
     said = ["score finger was done with other params (methods, regions, seed); it is done anew"]
-    assert list(redo_changed(now.get, only_say=True)) == said
+    assert changed(now.get, only_say=True) == said
     assert marked() == set()
-    assert list(redo_changed(now.get, only_say=False)) == said
+    assert changed(now.get, only_say=False) == said
     assert marked() == {urlsafe_b64encode(str(path).encode()).decode() for path in FILES[:2]}
 
 
@@ -78,7 +86,7 @@ def test_where_snakemake_has_its_records_it_compares_by_itself() -> None:
     record_job("results/logs/score/finger.log", FILES[:1], PARAMS[SCORE])
     FINISHED.mkdir(parents=True)
     (FINISHED / urlsafe_b64encode(str(FILES[0]).encode()).decode()).touch()
-    assert list(redo_changed({SCORE: {"seed": 2}}.get, only_say=False)) == []
+    assert changed({SCORE: {"seed": 2}}.get, only_say=False) == []
 
 
 def test_what_was_removed_with_its_folder_is_not_marked() -> None:
@@ -91,7 +99,7 @@ def test_what_was_removed_with_its_folder_is_not_marked() -> None:
     record_job("results/logs/score/leg.log", [other], {"seed": 1})
     for path in (one, other):
         shutil.rmtree(path.parent)
-    said = list(redo_changed(lambda _: {"seed": 2}, only_say=False))
+    said = changed(lambda _: {"seed": 2}, only_say=False)
     assert said == ["score finger was done with other params (seed); it is done anew"]
     assert marked() == {urlsafe_b64encode(str(FILES[0]).encode()).decode()}
 
@@ -99,7 +107,20 @@ def test_what_was_removed_with_its_folder_is_not_marked() -> None:
 def test_of_many_jobs_the_first_are_named() -> None:
     for path in FILES:
         record_job(f"results/logs/fit_model/finger/{path.stem}.log", [path], {"seed": 1})
-    said = list(redo_changed(lambda words: {"seed": 2} if words.startswith("fit_model") else None, only_say=True))
+    said = changed(lambda words: {"seed": 2} if words.startswith("fit_model") else None, only_say=True)
     assert len(said) == 11
     assert said[0] == "fit_model finger a was done with other params (seed); it is done anew"
     assert said[-1] == "3 more jobs were done with other params; they are done anew"
+
+
+def test_the_records_of_jobs_are_read_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    record_job("results/logs/score/finger.log", FILES[:1], PARAMS[SCORE])
+    read: list[Path] = []
+
+    def reading(record: Path) -> Any:
+        read.append(record)
+        return read_record(record)
+
+    monkeypatch.setattr("softkin.core.job_records.read_record", reading)
+    assert len(changed({SCORE: {"seed": 2}}.get, only_say=False)) == 1
+    assert read == [Path("results/manifest/finger/score.json")]
