@@ -16,7 +16,7 @@ from softkin.core.job_records import recorded_sha256
 from softkin.core.samples import CONSTANT_RANGE_MM, TRAIN, Samples, coordinate_columns, informative_coordinates
 from softkin.data.marker_order import RELABELLED, relabelled
 from softkin.data.own_files import in_words
-from softkin.data.readers import OWN_COLUMNS, READERS
+from softkin.data.readers import READERS, WITH_NAMES
 from softkin.data.readers.complete_rows import LOST_MARKERS
 from softkin.data.recordings import description as recording_description
 from softkin.data.recordings import with_order_table
@@ -63,7 +63,7 @@ def prepare(
         ResultError: the file was changed since it was retrieved.
     """
     sha256 = _checked_hash(raw, source, dataset)
-    samples, counts = _read(raw, source, dataset)
+    samples, counts, columns = _read(raw, source, dataset)
     sizes = {subset: len(rows) for subset, rows in samples.items()}
     where = f"dataset '{dataset}', file {in_words(source)}"
     _check_sizes(sizes, source, f"dataset '{dataset}', file {raw}")
@@ -93,18 +93,17 @@ def prepare(
         "is_cut": max_rows is not None and any(size > max_rows for size in sizes.values()),
     }
     about |= counts | _description(samples, source) | ({"recording": recorded} if recorded else {})
-    write_json(description, about | _columns(raw, source, counts))
+    write_json(description, about | _columns(columns, source, counts))
     logger.info("%d rows, %d commands, %d coordinates", len(frame), n_commands, 3 * n_markers)
 
 
-def _columns(raw: str | Path, source: Mapping[str, Any], counts: Mapping[str, Any]) -> dict[str, Any]:
-    """What the robot's own file calls the columns that are kept, and its unit; empty for files without names."""
-    if source["format"] not in OWN_COLUMNS:
+def _columns(columns: Mapping[str, Any], source: Mapping[str, Any], counts: Mapping[str, Any]) -> dict[str, Any]:
+    """What the robot's own file calls the `columns` that are kept, and its unit; empty for files without names."""
+    if not columns:
         return {}
-    columns = OWN_COLUMNS[source["format"]](raw, source)
     lost = {name for marker in counts.get(LOST_MARKERS, ()) for name in marker["columns"]}
-    columns["positions"] = [name for name in columns["positions"] if name not in lost]
-    return {"columns": columns | {"mm_per_unit": MM_PER_UNIT[source["position_unit"]]}}
+    kept = [name for name in columns["positions"] if name not in lost]
+    return {"columns": {**columns, "positions": kept, "mm_per_unit": MM_PER_UNIT[source["position_unit"]]}}
 
 
 def _description(samples: Mapping[str, Samples], source: Mapping[str, Any]) -> dict[str, Any]:
@@ -129,11 +128,17 @@ def _check_left(samples: Mapping[str, Samples], where: str) -> None:
         raise error.within(where) from error
 
 
-def _read(raw: str | Path, source: Mapping[str, Any], dataset: str) -> tuple[dict[str, Samples], dict[str, Any]]:
-    """The samples of the file, and what was left out by kind, where the entry asks for it."""
+def _read(
+    raw: str | Path, source: Mapping[str, Any], dataset: str
+) -> tuple[dict[str, Samples], dict[str, Any], dict[str, Any]]:
+    """The samples of the file, what was left out by kind where the entry asks for it, and what its columns are called
+    where they have names.
+    """
     counts: dict[str, Any] = {}
-    counting = {"counts": counts} if {"missing", "join"} & set(source) else {}
-    return READERS[source["format"]](raw, dataset=dataset, source=source, **counting), counts
+    columns: dict[str, Any] = {}
+    told = {"counts": counts} if {"missing", "join"} & set(source) else {}
+    told |= {"own_columns": columns} if source["format"] in WITH_NAMES else {}
+    return READERS[source["format"]](raw, dataset=dataset, source=source, **told), counts, columns
 
 
 def _checked_hash(raw: str | Path, source: Mapping[str, Any], dataset: str) -> str:

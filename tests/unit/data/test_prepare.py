@@ -17,6 +17,8 @@ from softkin.core.files import file_sha256, read_json
 from softkin.core.job_records import record_job
 from softkin.core.samples import SUBSETS, Samples
 from softkin.data.prepare import MM_PER_UNIT, prepare
+from softkin.data.readers import table_file
+from softkin.data.readers.table_formats import open_table
 from softkin.data.table import read_subset
 from tests.conftest import HOUSE, four_subsets, published_json
 
@@ -65,12 +67,22 @@ def test_max_rows_keeps_the_first_rows_and_says_so(tmp_path: Path) -> None:
     assert not run(tmp_path, entry())[1]["is_cut"]
 
 
-def test_a_table_of_ones_own_is_described_by_what_it_holds(tmp_path: Path) -> None:
+def test_a_table_of_ones_own_is_read_once_and_described_by_what_it_holds(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    opened: list[Path] = []
+
+    def opening(path: Path, source: Mapping[str, Any]) -> Any:
+        opened.append(path)
+        return open_table(path, source)
+
+    monkeypatch.setattr(table_file, "open_table", opening)
     example = HOUSE / "config" / "examples" / "bending_arm.csv"
     source = {"title": "Arm", "format": "table_file", "file": str(example), "position_unit": "in", "dimensions": 2}
     source |= {"commands": "p[0-9]_bar", "positions": ".*_[xz]", "split": {"method": "random", "seed": 3}}
     table, description = tmp_path / "table.parquet", tmp_path / "dataset.json"
     prepare(example, dataset="arm", source=source, table=table, description=description)
+    assert opened == [example]
     written_description = read_json(description)
     assert written_description["sha256"] == hashlib.sha256(example.read_bytes()).hexdigest()
     assert (written_description["n_commands"], written_description["n_markers"]) == (3, 2)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 from softkin.core.samples import Samples
 from softkin.data.readers import published_json, simulated, table_file
@@ -15,5 +14,5 @@ READERS: dict[str, Callable[..., dict[str, Samples]]] = {
     "simulated": simulated.read,
 }
 
-#: Source format -> what the robot's own file calls its columns (path, source), for formats whose columns have names.
-OWN_COLUMNS: dict[str, Callable[..., dict[str, Any]]] = {"table_file": table_file.own_columns}
+#: Source formats whose columns have names: their readers tell them (own_columns=).
+WITH_NAMES = ("table_file",)

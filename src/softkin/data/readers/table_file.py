@@ -31,16 +31,19 @@ logger = logging.getLogger("softkin")
 WHEN = ("order", "session")
 #: Keys of the entry whose columns are the robot.
 COLUMNS = ("commands", "positions")
+#: Gets what a reader tells besides the rows, where somebody asks for it.
+Told = dict[str, Any] | None
 #: A marker's range this many times that of the next narrower suggests that they are in different units: along an arm
 #: ranges grow gradually.
 SUSPICIOUS_GAP = 100.0
 
 
 def read(
-    path: str | Path, *, dataset: str, source: Mapping[str, Any], counts: dict[str, Any] | None = None
+    path: str | Path, *, dataset: str, source: Mapping[str, Any], counts: Told = None, own_columns: Told = None
 ) -> dict[str, Samples]:
     """Samples per subset, rows in the order of the file, positions in its own unit; planar ones get a third
-    coordinate 0. `counts` gets what was left out, by the names of `complete_rows.COUNTED`, as the entry asks for it.
+    coordinate 0. `counts` gets what was left out, by the names of `complete_rows.COUNTED`, as the entry asks for it;
+    `own_columns` what the columns of `commands` and `positions` are called, and how many `dimensions` a marker has.
 
     Memory is computed before rows are left out, and not across a row whose command is missing.
 
@@ -54,6 +57,7 @@ def read(
         chosen = [*commands, *coordinates]
         names = [table.names[place] for place in chosen]
         n_commands, dimensions = len(commands), source.get("dimensions", 3)
+        _tell(own_columns, commands=names[:n_commands], positions=names[n_commands:], dimensions=dimensions)
         missing = source.get("missing", REFUSE)
         others = [place for place in dict.fromkeys(named.values()) if place not in chosen]
         values, read_others = table.read(chosen, others, gaps=missing != REFUSE)
@@ -70,8 +74,7 @@ def read(
             unjoined=getattr(table, "unjoined", None),
             place=table.place,
         )
-        if counts is not None:
-            counts |= left.counts
+        _tell(counts, **left.counts)
         recording = _recording(values[:, :n_commands], by, table.place, left.rows)
         names = [*names[:n_commands], *(names[n_commands + place] for place in left.coordinates)]
         values = values[np.ix_(left.rows, [*range(n_commands), *(n_commands + left.coordinates)])]
@@ -97,6 +100,11 @@ def read(
     return _by_subset(samples, subset_of)
 
 
+def _tell(somebody: Told, **what: Any) -> None:
+    if somebody is not None:
+        somebody |= what
+
+
 def _by_subset(samples: Samples, subset_of: split.Codes) -> dict[str, Samples]:
     """The rows of each subset that has some."""
     return {
@@ -117,15 +125,6 @@ def _chosen(names: Sequence[str], source: Mapping[str, Any]) -> tuple[list[int],
     of_commands, of_coordinates = ([names[place] for place in places] for places in (commands, coordinates))
     columns.check(of_commands, of_coordinates, source.get("dimensions", 3), source)
     return commands, coordinates, named
-
-
-def own_columns(path: str | Path, source: Mapping[str, Any]) -> dict[str, Any]:
-    """What the columns of `commands` and of `positions` are called in a file that `read` takes, and how many
-    `dimensions` a marker has there.
-    """
-    names = open_table(path, source).names
-    chosen = {key: [names[place] for place in columns.choose(names, source[key], key)] for key in COLUMNS}
-    return {**chosen, "dimensions": source.get("dimensions", 3)}
 
 
 def _recording(
