@@ -19,7 +19,7 @@ from softkin.cli.guess_entry import asked, guess_entry
 from softkin.cli.guess_questions import Question
 from softkin.cli.robot_files import RobotFiles, robot_files
 from softkin.core.errors import ConfigError, DataError, SoftkinError
-from softkin.data.entries import RESERVED
+from softkin.data.entries import reason_against_name
 from softkin.data.readers import table_file
 from softkin.data.readers.joined_tables import JOINS
 
@@ -103,10 +103,8 @@ def _checked_name(name: str | None, file: str) -> str:
         raise ConfigError(
             f"'{name}' is no name: a letter a-z, then a-z, 0-9, _", where="NAME", fix="choose another with --name"
         )
-    if name in RESERVED:
-        raise ConfigError(
-            f"results/{name} is a folder of softkin's own", where="NAME", fix="choose another name with --name"
-        )
+    if reason := reason_against_name(name):
+        raise ConfigError(reason, where="NAME", fix="choose another name with --name")
     return name
 
 

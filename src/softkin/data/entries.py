@@ -16,7 +16,9 @@ from softkin.data.reachability import SUFFIX
 from softkin.data.readers.columns import MAX_COMMANDS
 
 #: Folders of results/ that are no dataset's.
-RESERVED = ("tables", "logs", "benchmarks", "studies", "demo")
+RESERVED = ("tables", "logs", "benchmarks", "studies", "studies_before_refit", "manifest", "schedules", "demo")
+#: Experiments of MLflow that are no dataset's, each of which has one of its name.
+EXPERIMENTS = ("campaigns", "champions", "history")
 #: The format of a stand-in's file, which has no entry.
 SIMULATED = "simulated"
 #: mm: farther from the origin no base of a robot stands; a shorter axis has no direction.
@@ -36,10 +38,17 @@ def problems_of_entries(config: Mapping[str, Any]) -> list[str]:
     return [*problems, *(problem for name, entry in own.items() for problem in _problems_of_files(name, entry))]
 
 
+def reason_against_name(name: str) -> str:
+    """Why no dataset may have this name, which is softkin's own; empty where one may."""
+    if name in RESERVED:
+        return f"results/{name} is a folder of softkin's own"
+    return f"{name} is an experiment of softkin's own in MLflow" if name in EXPERIMENTS else ""
+
+
 def _problems(name: str, entry: Mapping[str, Any], sources: Mapping[str, Any]) -> Iterator[str]:
     key = f"sources.{name}"
-    if name in RESERVED:
-        yield f"{key}: results/{name} is a folder of softkin's own; choose another name"
+    if reason := reason_against_name(name):
+        yield f"{key}: {reason}; choose another name"
     if name.endswith(SUFFIX) and name.removesuffix(SUFFIX) in sources:
         yield f"{key}: that is the name of the stand-in of {name.removesuffix(SUFFIX)}; choose another name"
     if not entry["title"].strip() or "\n" in entry["title"].strip():

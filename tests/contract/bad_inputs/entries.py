@@ -44,7 +44,11 @@ CASES = [
     BadInput("a dataset that YAML reads as no", configured("datasets: [no]"), ("datasets.0: False is no text",)),
     *(
         BadInput(f"a dataset named {name}", named(name), (f"results/{name}", "softkin's own"))
-        for name in ("tables", "logs", "benchmarks", "studies", "demo")
+        for name in ("tables", "logs", "benchmarks", "studies", "manifest", "schedules", "demo")
+    ),
+    *(
+        BadInput(f"a dataset named {name}", named(name), (f"sources.{name}", "experiment of softkin's own"))
+        for name in ("campaigns", "champions", "history")
     ),
     BadInput("a dataset named with a slash", named("my/arm"), ("sources", "'my/arm'", "a letter a-z")),
     BadInput("a dataset named ..", named(".."), ("sources", "a letter a-z")),

@@ -6,7 +6,8 @@ from typing import Any
 import pytest
 import yaml
 
-from softkin.data.entries import RESERVED, problems_of_entries
+from softkin.data.entries import EXPERIMENTS, RESERVED, problems_of_entries
+from softkin.tracking import champion, nights
 from tests.conftest import HOUSE
 
 SOURCES = yaml.safe_load((HOUSE / "config" / "datasets.yaml").read_text())["sources"]
@@ -42,6 +43,10 @@ def test_names_of_softkins_own_folders_are_those_that_the_rules_exclude() -> Non
     rules = (HOUSE / "workflow" / "rules" / "paths.smk").read_text()
     assert f"(?!(?:{'|'.join(name for name in RESERVED if name != 'demo')})/)" in rules
     assert "results/demo" in (HOUSE / "Makefile").read_text()
+
+
+def test_experiments_of_softkins_own_are_those_that_tracking_makes() -> None:
+    assert set(EXPERIMENTS) == {champion.EXPERIMENT, nights.EXPERIMENT, nights.HISTORY}
 
 
 def test_all_problems_of_an_entry_are_told() -> None:
