@@ -11,11 +11,17 @@ from softkin.campaigns.comparison import BETTER, COVERAGE, TITLES, WORSE, Compar
 from softkin.reporting.tables.numbers import number_text, share_text
 
 #: How a night ends.
-FIRST, UNCHANGED, SAME_RESULTS, IMPROVED, GOT_WORSE, DATA_CHANGED, FAILED, BUSY = (
-    "first", "unchanged", "same", "better", "worse", "data_changed", "failed", "busy",
+FIRST, UNCHANGED, SAME_RESULTS, IMPROVED, GOT_WORSE, DATA_CHANGED, FAILED, UNFINISHED, BUSY = (
+    "first", "unchanged", "same", "better", "worse", "data_changed", "failed", "unfinished", "busy",
 )  # fmt: skip
 #: Exit codes: 0 nothing to do for a person; 75 is EX_TEMPFAIL of sysexits.h.
-EXIT_CODES = {FIRST: 0, UNCHANGED: 0, SAME_RESULTS: 0, IMPROVED: 0, FAILED: 1, GOT_WORSE: 3, DATA_CHANGED: 4, BUSY: 75}
+EXIT_CODES = {
+    **dict.fromkeys((FIRST, UNCHANGED, SAME_RESULTS, IMPROVED), 0),
+    **dict.fromkeys((FAILED, UNFINISHED), 1),
+    GOT_WORSE: 3,
+    DATA_CHANGED: 4,
+    BUSY: 75,
+}
 HEADINGS = {
     FIRST: "First campaign: there is nothing to compare it with",
     UNCHANGED: "Nothing changed, and nothing was computed",
@@ -24,6 +30,7 @@ HEADINGS = {
     GOT_WORSE: "Something got worse",
     DATA_CHANGED: "The data changed in a way that a person must look at",
     FAILED: "The campaign failed",
+    UNFINISHED: "The campaign goes on, or was killed",
 }
 
 

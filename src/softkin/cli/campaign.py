@@ -15,13 +15,14 @@ import sys
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from pathlib import Path
 
-from softkin.campaigns.verdict import BUSY, EXIT_CODES, FAILED, Verdict
+from softkin.campaigns.verdict import BUSY, EXIT_CODES, FAILED, UNFINISHED, Verdict
 from softkin.cli.held_lock import HeldLock
 from softkin.cli.judging import Results, judge_results, log_failure
 from softkin.cli.notification import take_urls, tell
-from softkin.cli.workflow_process import Ended, run_workflow
+from softkin.cli.workflow_process import Ended, Stopped, run_workflow, stoppable
 from softkin.core.errors import SoftkinError
 from softkin.core.explained import explained
 from softkin.core.files import write_json, write_text
@@ -57,14 +58,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"softkin: a campaign goes on in {asked.directory}: {lock.holder()}.", file=sys.stderr)
         return EXIT_CODES[BUSY]
     try:
+        # That of the last campaign would be taken for that of this one, where this one is killed.
+        _write(results, Verdict(UNFINISHED, [f"It began at {datetime.now(UTC):%Y-%m-%d %H:%M:%S} UTC."]))
         verdict = _campaign(asked, results)
-        write_json(results / "verdict.json", verdict.as_dict())
-        write_text(results / "verdict.md", verdict.as_markdown())
+        _write(results, verdict)
     finally:
         lock.release()
     print(verdict.as_markdown())
     tell(verdict, command=asked.notify, urls=urls)
     return verdict.exit_code
+
+
+def _write(results: Path, verdict: Verdict) -> None:
+    write_json(results / "verdict.json", verdict.as_dict())
+    write_text(results / "verdict.md", verdict.as_markdown())
 
 
 def _campaign(asked: Arguments, results: Path) -> Verdict:
@@ -74,7 +81,11 @@ def _campaign(asked: Arguments, results: Path) -> Verdict:
     found = Results(results, started, ended)
     reasons = _reasons(ended, results, started) if ended.exit_code != 0 else []
     try:
-        return log_failure(found, reasons) if reasons else judge_results(found, refit=asked.refit)
+        with stoppable():
+            return log_failure(found, reasons) if reasons else judge_results(found, refit=asked.refit)
+    except Stopped as stopped:
+        reasons = [*reasons, f"It was stopped by {stopped} while its results were judged."]
+        return Verdict(FAILED, reasons, facts=found.facts())
     except Exception as error:  # of a store, say: the verdict's files tell it where no store can
         known = error if isinstance(error, SoftkinError) else explained(error, ())
         if known is None:

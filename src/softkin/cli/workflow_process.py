@@ -39,8 +39,8 @@ class Ended:
     jobs_reused: int | None
 
 
-class _Stopped(Exception):
-    """A signal that asks the campaign to end."""
+class Stopped(BaseException):
+    """A signal that asks the campaign to end: its name. No `except Exception` of a library holds it up."""
 
 
 def run_workflow(command: Sequence[str], *, directory: Path, results: Path, refit: bool) -> Ended:
@@ -53,13 +53,14 @@ def run_workflow(command: Sequence[str], *, directory: Path, results: Path, refi
         refit: put the studies aside, so that all of them start anew; they come back if the workflow fails.
     """
     before = _counted(results)
+    _bring_back_studies(results)
     (results / JOBS).unlink(missing_ok=True)
     cpu, stopped = _children_cpu(), ""
     with _studies_aside(results) if refit else nullcontext():
-        with subprocess.Popen(command, cwd=directory, start_new_session=True) as process, _signals():
+        with subprocess.Popen(command, cwd=directory, start_new_session=True) as process, stoppable():
             try:
                 code = process.wait()
-            except _Stopped as error:
+            except Stopped as error:
                 stopped, code = str(error), _end(process)
         if refit and code == 0:
             shutil.rmtree(_aside(results), ignore_errors=True)
@@ -101,11 +102,11 @@ def _group_lives(group: int) -> bool:
 
 
 @contextmanager
-def _signals() -> Iterator[None]:
-    """Raise `_Stopped` on SIGTERM, SIGINT and SIGHUP."""
+def stoppable() -> Iterator[None]:
+    """Raise `Stopped` in the block on SIGTERM, SIGINT and SIGHUP."""
 
     def stop(number: int, frame: FrameType | None) -> None:  # noqa: ARG001
-        raise _Stopped(signal.Signals(number).name)
+        raise Stopped(signal.Signals(number).name)
 
     numbers = (signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
     old = {number: signal.signal(number, stop) for number in numbers}
@@ -128,6 +129,17 @@ def _studies_aside(results: Path) -> Iterator[None]:
         if _aside(results).exists():
             shutil.rmtree(results / STUDIES, ignore_errors=True)
             os.replace(_aside(results), results / STUDIES)
+
+
+def _bring_back_studies(results: Path) -> None:
+    """Move back the studies that a refit put aside before it was killed, but for those that it has begun anew."""
+    aside, studies = _aside(results), results / STUDIES
+    for path in sorted(aside.rglob("*")):
+        place = studies / path.relative_to(aside)
+        if path.is_file() and not place.exists():
+            place.parent.mkdir(parents=True, exist_ok=True)
+            os.replace(path, place)
+    shutil.rmtree(aside, ignore_errors=True)
 
 
 def _aside(results: Path) -> Path:

@@ -19,8 +19,9 @@ from mlflow.entities import Run as LoggedRun
 from mlflow.exceptions import MlflowException
 
 from softkin.core.files import read_json
+from softkin.tracking.lock import locked
 from softkin.tracking.promotion import CANDIDATE, CHAMPION, aliases_of, promote
-from softkin.tracking.records import find, infinite_of, log_points
+from softkin.tracking.records import find, infinite_of, log_points, sweep
 from softkin.tracking.saved_view import CAMPAIGNS_TAG, campaigns_view
 from softkin.tracking.store import NOTE, experiment_of
 
@@ -106,8 +107,14 @@ def night_of(client: MlflowClient, run_id: str) -> Night:
 
 
 def log_night(client: MlflowClient, record: NightRecord) -> str:
-    """Log a campaign as a run of its own; return its id."""
+    """Log a campaign as a run of its own; return its id. A run that a killed one left half logged is removed."""
     experiment = experiment_of(client, EXPERIMENT)
+    with locked(client.tracking_uri, EXPERIMENT):
+        sweep(client, experiment, kind=KIND)
+        return _log(client, experiment, record)
+
+
+def _log(client: MlflowClient, experiment: str, record: NightRecord) -> str:
     summary, verdict = record.summary, record.verdict
     campaign = summary["campaign"] if summary else "unknown"
     name = f"{campaign} · {time.strftime('%Y-%m-%d %H:%M', time.gmtime(record.started))}"
@@ -124,7 +131,6 @@ def log_night(client: MlflowClient, record: NightRecord) -> str:
     for folder, paths in record.files.items():
         for path in paths:
             client.log_artifact(run_id, str(path), folder or None)
-    client.set_terminated(run_id, "FINISHED" if verdict["outcome"] not in WITHOUT_NUMBERS else "FAILED")
     if summary:
         columns = [f"metrics.`{dataset}/{metric}`" for metric in SHOWN for dataset in summary["datasets"]]
         view = campaigns_view(["tags.`verdict`", "metrics.`duration_seconds`", "metrics.`jobs_run`", *columns])
@@ -132,6 +138,8 @@ def log_night(client: MlflowClient, record: NightRecord) -> str:
     client.set_experiment_tag(experiment, NOTE, "A run for each campaign. *Views*, at the top right, has *Nights*.")
     if summary:
         _go_on_with_history(client, campaign, metrics)
+    # Its end comes last: a night that was cut off is still running, and is swept by the next one.
+    client.set_terminated(run_id, "FINISHED" if verdict["outcome"] not in WITHOUT_NUMBERS else "FAILED")
     return run_id
 
 
@@ -146,6 +154,7 @@ def _go_on_with_history(client: MlflowClient, campaign: str, metrics: Sequence[M
     points = [Metric(one.key, one.value, one.timestamp, step) for one in metrics]
     points.append(Metric("night", step, points[0].timestamp, step))
     log_points(client, run.info.run_id, points)
+    client.set_terminated(run.info.run_id)
 
 
 def candidates(client: MlflowClient, datasets: Sequence[str]) -> list[Candidate]:

@@ -38,6 +38,21 @@ FAULTS = [
         f"{CAMPAIGN}::test_a_campaign_that_was_stopped_says_by_what",
     ),
     Fault(
+        "a campaign is stopped while its results are judged",
+        "the verdict says by which signal",
+        f"{CAMPAIGN}::test_a_campaign_that_is_stopped_while_it_is_judged_says_so",
+    ),
+    Fault(
+        "a campaign is killed, and has no verdict",
+        "`unfinished` stands in the place of the verdict before",
+        f"{CAMPAIGN}::test_a_campaign_that_was_killed_leaves_no_verdict_of_the_one_before",
+    ),
+    Fault(
+        "a campaign is killed while it is logged",
+        "the next one removes the half run",
+        "unit/tracking/test_nights.py::test_what_a_killed_campaign_left_half_logged_is_removed",
+    ),
+    Fault(
         "the lock, the jobs and the half files of a killed run are left",
         "cleared, and said",
         f"{ONE_RUN}::test_what_a_killed_run_left_is_cleared_and_named",
@@ -61,5 +76,10 @@ FAULTS = [
         "everything is redone, and that fails",
         "the studies from before come back",
         f"{PROCESS}::test_studies_start_anew_and_come_back_where_the_workflow_fails",
+    ),
+    Fault(
+        "everything is redone, and that is killed",
+        "the studies from before come back at the next campaign, but for those begun anew",
+        f"{PROCESS}::test_studies_that_a_killed_refit_put_aside_come_back",
     ),
 ]

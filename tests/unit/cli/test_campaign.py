@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 import subprocess
 import sys
+import time
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -82,6 +85,43 @@ def test_a_campaign_that_was_stopped_says_by_what(tmp_path: Path, monkeypatch: p
     monkeypatch.setattr(campaign, "run_workflow", lambda *_, **__: ended(signal="SIGTERM"))
     assert campaign.main(["--directory", str(tmp_path)]) == 1
     assert read_json(tmp_path / "results" / "verdict.json")["reasons"] == ["It was stopped by SIGTERM."]
+
+
+def test_a_campaign_that_is_stopped_while_it_is_judged_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As a library would see it that tries again whatever happens."""
+
+    def stubborn(*_: object, **__: object) -> Verdict:
+        for _ in range(2):
+            with suppress(Exception):
+                os.kill(os.getpid(), signal.SIGTERM)
+                time.sleep(5)
+        pytest.fail("the campaign goes on")
+
+    monkeypatch.setattr(campaign, "run_workflow", lambda *_, **__: ended(0))
+    monkeypatch.setattr(campaign, "judge_results", stubborn)
+    assert campaign.main(["--directory", str(tmp_path)]) == 1
+    reasons = read_json(tmp_path / "results" / "verdict.json")["reasons"]
+    assert reasons == ["It was stopped by SIGTERM while its results were judged."]
+
+
+def test_a_campaign_that_was_killed_leaves_no_verdict_of_the_one_before(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class Killed(BaseException):
+        pass
+
+    def killed(*_: object, **__: object) -> Ended:
+        raise Killed
+
+    (tmp_path / "results").mkdir()
+    write_json(tmp_path / "results" / "verdict.json", {"outcome": "same", "exit_code": 0})
+    monkeypatch.setattr(campaign, "run_workflow", killed)
+    with pytest.raises(Killed):
+        campaign.main(["--directory", str(tmp_path)])
+    verdict = read_json(tmp_path / "results" / "verdict.json")
+    assert (verdict["outcome"], verdict["exit_code"]) == ("unfinished", 1)
+    page = (tmp_path / "results" / "verdict.md").read_text()
+    assert page.startswith("# The campaign goes on, or was killed\n\n- It began at 20")
 
 
 def test_a_tracking_server_that_is_gone_hides_no_other_reason(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -83,6 +83,22 @@ def test_studies_start_anew_and_come_back_where_the_workflow_fails(code: str, le
     assert [path.name for path in studies.parent.iterdir() if path.name.startswith("studies")] == ["studies"]
 
 
+@pytest.mark.parametrize("refit", [False, True])
+def test_studies_that_a_killed_refit_put_aside_come_back(refit: bool, tmp_path: Path) -> None:
+    """But for those that it has begun anew; and the next refit is no traceback."""
+    studies, aside = (tmp_path / "results" / name / "finger" for name in ("studies", "studies_before_refit"))
+    for folder, names in ((studies, "a"), (aside, "ab")):
+        folder.mkdir(parents=True)
+        for name in names:
+            (folder / f"{name}.journal").write_text(folder.parent.name)
+    run_workflow(command("raise SystemExit(1)"), directory=tmp_path, results=tmp_path / "results", refit=refit)
+    assert {path.name: path.read_text() for path in studies.iterdir()} == {
+        "a.journal": "studies",
+        "b.journal": "studies_before_refit",
+    }
+    assert not aside.parent.exists()
+
+
 @pytest.mark.parametrize("torn", ["", '{"run": 3, "al', "[]"])
 def test_a_count_that_was_torn_by_a_kill_is_unknown(tmp_path: Path, torn: str) -> None:
     (tmp_path / "results" / "logs").mkdir(parents=True)

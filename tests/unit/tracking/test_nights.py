@@ -19,6 +19,7 @@ from softkin.tracking.nights import (
     nights,
 )
 from softkin.tracking.promotion import REASON, aliases_of, nominate
+from softkin.tracking.store import experiment_of
 
 NAME = "softkin-finger"
 ROWS = pd.DataFrame({"dataset": ["finger"], "error_mm": [1.5]})
@@ -84,6 +85,19 @@ def test_nights_are_a_curve_in_one_run(client: Any, tmp_path: Path) -> None:
 
 def test_a_failed_night_is_marked_in_the_store(client: Any, tmp_path: Path) -> None:
     assert client.get_run(logged(client, tmp_path, "failed")).info.status == "FAILED"
+
+
+def test_what_a_killed_campaign_left_half_logged_is_removed(client: Any, tmp_path: Path) -> None:
+    """By the next one, which holds a lock of the store: on a server another folder may be logging its own."""
+    experiment = experiment_of(client, "campaigns")
+    half = client.create_run(experiment, tags={"kind": "night", "campaign": "weekly"}).info.run_id
+    whole = logged(client, tmp_path)
+    assert [run.info.run_id for run in nights(client)] == [whole]
+    assert client.get_run(half).info.lifecycle_stage == "deleted"
+    assert (tmp_path / "mlflow.db.campaigns.lock").exists()
+    everything = client.search_runs([one.experiment_id for one in client.search_experiments()])
+    assert {run.info.status for run in everything} == {"FINISHED"}
+    assert len(everything) == 2
 
 
 def test_a_candidate_becomes_champion_for_a_reason_and_is_judged_once(client: Any, tmp_path: Path) -> None:
