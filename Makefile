@@ -25,7 +25,7 @@ export XDG_CACHE_HOME := $(CURDIR)/.venv/cache
 export MPLCONFIGDIR := $(CURDIR)/.venv/cache/matplotlib
 endif
 
-.PHONY: help run demo campaign refit schedule prune unlock new-robot test test-workflow test-units test-contracts test-run lint ui store report verify
+.PHONY: help run demo campaign refit schedule prune unlock new-robot test test-workflow test-units test-contracts other-pythons test-run lint ui store report verify
 .PHONY: gallery numbers results-page single-rows
 .PHONY: snakemake-report campaigns campaign-slurm coverage standins timings benchmark benchmark-large benchmark-pruning benchmark-shells
 .PHONY: benchmark-figures benchmark-two-files benchmark-commands benchmark-many-robots benchmark-recalibration benchmark-choice benchmark-promises
@@ -75,6 +75,10 @@ test-units: .venv/installed-dev
 # The tests of every entry of a registry, of messages and of pages.
 test-contracts: .venv/installed-dev
 	$(BIN)/pytest -m "not slow" tests/contract tests/tools
+
+# Python 3.12 and 3.13, where they are on this machine: the environment, a plan of the workflow, the tests of `core`.
+other-pythons: .venv/installed
+	$(BIN)/python -m tools.other_pythons 3.12 3.13
 
 # The workflow on the configuration of the tests, in results/test-run.
 test-run: .venv/installed

@@ -91,7 +91,7 @@ def test_a_campaign_that_is_stopped_while_it_is_judged_says_so(tmp_path: Path, m
     """As a library would see it that tries again whatever happens."""
 
     def stubborn(*_: object, **__: object) -> Verdict:
-        for _ in range(2):
+        for _attempt in range(2):
             with suppress(Exception):
                 os.kill(os.getpid(), signal.SIGTERM)
                 time.sleep(5)
