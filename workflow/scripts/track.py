@@ -6,6 +6,8 @@ from softkin.core.job import job
 from softkin.core.manifest import files_of_runs
 from softkin.core.runs import Run
 from softkin.tracking import Campaign, locked, log_champion, log_dataset, log_intervals
+from softkin.tracking.links import link_to
+from softkin.tracking.store import client_of
 
 files, params = snakemake.input, snakemake.params
 tracking_uri = with_credentials(params.tracking_uri)
@@ -38,4 +40,6 @@ with job(snakemake.log[0], f"track {snakemake.wildcards.dataset}", snakemake.out
             calibrated_model=files.calibrated_model,
             parent=logged["campaign"],
         )
-        write_json(snakemake.output[0], {"runs": logged, "interval_runs": n_intervals, "champion": version})
+        link = link_to(client_of(tracking_uri), snakemake.wildcards.dataset)
+        of_store = {"runs": logged, "interval_runs": n_intervals, "champion": version, "link": link}
+        write_json(snakemake.output[0], of_store)

@@ -7,6 +7,9 @@ import shlex
 from collections.abc import Callable, Collection, Iterator, Sequence
 from pathlib import Path
 
+from softkin.cli.store_address import STORE, ui_address
+from softkin.core.files import read_json
+
 RESULTS = Path("results")
 HEADLINE = RESULTS / "tables" / "headline.txt"
 CALIBRATED = "calibrated_model.joblib"
@@ -39,7 +42,8 @@ def final_screen(
         lines.append((folder / HEADLINE).read_text(encoding="utf-8"))
     shown = [*_files(place, paths, datasets)]
     width = max((len(path) for path, _ in shown), default=0)
-    return "\n".join([*lines, *(f"  {path:<{width}}  {what}" for path, what in shown), ""])
+    lines += [f"  {path:<{width}}  {what}" for path, what in shown]
+    return "\n".join([*lines, *_links(paths, datasets, folder), ""])
 
 
 def _done(did: int, of: int) -> str:
@@ -62,6 +66,18 @@ def _files(place: Path, made: Collection[Path], datasets: Sequence[str]) -> Iter
     if any(path.name == "mlflow_runs.json" for path in made):
         which = "" if place == Path() else f" IN={shlex.quote(str(place))}"
         yield f"make ui{which}", "browse every run in the MLflow UI"
+
+
+def _links(made: Collection[Path], datasets: Sequence[str], folder: Path) -> Iterator[str]:
+    """A line for each dataset whose runs are in MLflow: where the UI shows them."""
+    logged = {name: RESULTS / name / "mlflow_runs.json" for name in datasets}
+    logged = {name: file for name, file in logged.items() if file in made}
+    if not logged:
+        return
+    base = ui_address(read_json(folder / STORE)["tracking_uri"])
+    width = max(map(len, logged))
+    for name, file in logged.items():
+        yield f"    {name:<{width}}  {base}{read_json(folder / file)['link']}"
 
 
 class AtMessage(logging.Handler):

@@ -15,19 +15,17 @@ import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from softkin.cli.store_address import store_address
-from softkin.core.addresses import SQLITE
+from softkin.cli.store_address import HOST, PORT, store_address, ui_address
+from softkin.core.addresses import is_served
 from softkin.core.errors import ConfigError, SoftkinError
 from softkin.tracking.links import links
-
-HOST = "127.0.0.1"
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Serve the UI until it is ended; return its exit code."""
     parser = argparse.ArgumentParser(prog="softkin.cli.ui", allow_abbrev=False, description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)  # fmt: skip
-    parser.add_argument("--port", type=int, default=5000, help="on this machine; 5000 by default")
+    parser.add_argument("--port", type=int, default=PORT, help="on this machine; 5000 by default")
     parser.add_argument("--directory", type=Path, default=Path(), help="folder of a run; this one by default")
     asked = parser.parse_args(arguments)
     try:
@@ -35,7 +33,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         address = store_address(Path())
         for line in page(address, asked.port):
             print(line, flush=True)
-        return serve(address, asked.port) if address.startswith(SQLITE) else 0
+        return 0 if is_served(address) else serve(address, asked.port)
     except FileNotFoundError:
         print(f"softkin: there is no folder {asked.directory}", file=sys.stderr)
     except SoftkinError as error:
@@ -50,21 +48,20 @@ def page(address: str, port: int) -> Iterator[str]:
         StoreError: the store cannot be opened.
         ConfigError: the port is taken.
     """
-    base = address
-    if address.startswith(SQLITE):
+    if not is_served(address):
         _check_free(port)
-        base = f"http://{HOST}:{port}"
     found = links(address)
     width = max(map(len, found), default=0)
-    yield "Ctrl-C ends it." if address.startswith(SQLITE) else "The store is served there already."
+    yield "The store is served there already." if is_served(address) else "Ctrl-C ends it."
     for name, path in found.items():
-        yield f"  {name:<{width}}  {base}{path}"
+        yield f"  {name:<{width}}  {ui_address(address, port)}{path}"
 
 
 def serve(address: str, port: int) -> int:
-    """Serve the UI of a store in a file, on this machine alone."""
-    environment = os.environ | {"MLFLOW_SERVER_ENABLE_JOB_EXECUTION": "false"}
-    command = [sys.executable, "-m", "mlflow", "ui", "--backend-store-uri", address, "--workers", "1"]
+    """Serve the UI of a store that no server has, on this machine alone."""
+    # Not as an argument, which every user of the machine can read: a database's address may hold a password.
+    environment = os.environ | {"MLFLOW_SERVER_ENABLE_JOB_EXECUTION": "false", "MLFLOW_BACKEND_STORE_URI": address}
+    command = [sys.executable, "-m", "mlflow", "ui", "--workers", "1"]
     try:
         return subprocess.call([*command, "--host", HOST, "--port", str(port)], env=environment)
     except KeyboardInterrupt:

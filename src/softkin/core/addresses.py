@@ -19,6 +19,11 @@ DATABASES = {"postgresql": "psycopg2", "mysql": "MySQLdb", "mssql": "pyodbc"}
 SERVERS = ("http", "https")
 
 
+def is_served(uri: str) -> bool:
+    """Whether a server has the MLflow store at `uri`; else MLflow opens a database there itself."""
+    return urlsplit(uri).scheme in SERVERS
+
+
 def problems_of_store(uri: str, key: str = "tracking_uri") -> Iterator[str]:
     """Why the MLflow store at `uri` cannot be opened, as far as its address and its file tell."""
     scheme = urlsplit(uri).scheme if re.match(r"[A-Za-z][\w+.-]*:", uri) else ""

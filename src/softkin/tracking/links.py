@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from mlflow import MlflowClient
+
 from softkin.tracking import champion, nights, saved_view
-from softkin.tracking.store import client_of
+from softkin.tracking.store import client_of, experiment_of
 
 #: The experiments across datasets, in the order of the links: name -> (title, key of the saved view).
 ACROSS = {
@@ -34,6 +36,11 @@ def links(tracking_uri: str) -> dict[str, str]:
         )
     experiments.pop("Default", None)
     return found | {name: _link(number, saved_view.KEY) for name, number in sorted(experiments.items())}
+
+
+def link_to(client: MlflowClient, dataset: str) -> str:
+    """The link to the runs of a dataset, from the server's address on."""
+    return _link(experiment_of(client, dataset), saved_view.KEY)
 
 
 def _link(experiment: str, view: str) -> str:

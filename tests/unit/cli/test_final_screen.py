@@ -9,6 +9,7 @@ import pytest
 from snakemake.common import NOTHING_TO_BE_DONE_MSG
 
 from softkin.cli.final_screen import AtMessage, final_screen
+from softkin.core.files import write_json
 
 ALL = {"results/report.html", "results/tables/headline.txt", "results/tables/paper_tables.md"}
 ALL |= {"results/arm/calibrated_model.joblib", "results/arm/mlflow_runs.json", "results/arm/table.parquet"}
@@ -18,6 +19,8 @@ ALL |= {"results/arm/calibrated_model.joblib", "results/arm/mlflow_runs.json", "
 def folder(tmp_path: Path) -> Path:
     (tmp_path / "results" / "tables").mkdir(parents=True)
     (tmp_path / "results" / "tables" / "headline.txt").write_text("THE HEADLINE\n")
+    write_json(tmp_path / "results" / "mlflow_store.json", {"tracking_uri": "sqlite:///mlflow.db"})
+    write_json(tmp_path / "results" / "arm" / "mlflow_runs.json", {"link": "/#/experiments/7/runs?a"})
     return tmp_path
 
 
@@ -31,11 +34,18 @@ def test_it_says_what_was_done_and_where_everything_is(folder: Path) -> None:
     assert "results/arm/calibrated_model.joblib  the calibrated model of arm" in text
     assert "other" not in text  # whose model this run was not asked for
     assert "make ui  " in text
+    assert text.rstrip().endswith("\n    arm  http://127.0.0.1:5000/#/experiments/7/runs?a")
+
+
+def test_links_are_those_of_a_server_without_its_credentials(folder: Path) -> None:
+    write_json(folder / "results" / "mlflow_store.json", {"tracking_uri": "https://***@example.org/mlflow"})
+    text = final_screen(Path(), ALL, ["arm"], jobs=(3, 3), folder=folder)
+    assert "arm  https://example.org/mlflow/#/experiments/7/runs?a\n" in text
 
 
 def test_paths_are_those_of_the_folder_of_the_run(folder: Path) -> None:
     text = final_screen(Path("results/test run"), ALL, ["arm"], jobs=(1, 3), folder=folder)
-    paths = [line.split("  ")[1] for line in text.splitlines() if line.startswith("  ")]
+    paths = [line.split("  ")[1] for line in text.splitlines() if line.startswith("  ") and line[2] != " "]
     assert paths[-1] == "make ui IN='results/test run'"
     assert {path.startswith("results/test run/results/") for path in paths[:-1]} == {True}
     assert "1 job done, 2 up to date." in text

@@ -46,10 +46,40 @@ def test_the_store_of_the_last_run_is_served_on_this_machine_alone(
         port = free.getsockname()[1]
     assert ui.main(["--directory", str(folder), "--port", str(port)]) == 0
     ((command, environment),) = called
-    assert command[command.index("--backend-store-uri") + 1] == f"sqlite:///{folder / 'nights.db'}"
+    assert environment["MLFLOW_BACKEND_STORE_URI"] == f"sqlite:///{folder / 'nights.db'}"
     assert command[command.index("--host") + 1] == "127.0.0.1"
     assert environment["MLFLOW_SERVER_ENABLE_JOB_EXECUTION"] == "false"
     assert "Ctrl-C ends it." in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("address", "served", "shown"),
+    [
+        ("postgresql://me:secret@example.org/runs", False, "http://127.0.0.1:7001/#"),
+        ("https://me:secret@example.org/mlflow/", True, "https://example.org/mlflow/#"),
+    ],
+)
+def test_a_database_is_served_and_a_server_is_not(
+    address: str, served: bool, shown: str, folder: Path, monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    """And no password is shown, nor stands in a command line."""
+    called: list[Any] = []
+    monkeypatch.setattr(ui, "store_address", lambda _: address)
+    monkeypatch.setattr(ui, "links", lambda _: {"arm": "/#/experiments/1"})
+
+    def call(command: list[str], env: dict[str, str]) -> int:
+        called.append((command, env))
+        return 0
+
+    monkeypatch.setattr("subprocess.call", call)
+    monkeypatch.setattr(ui, "_check_free", lambda _: None)
+    assert ui.main(["--directory", str(folder), "--port", "7001"]) == 0
+    said = capsys.readouterr().out
+    assert f"arm  {shown}" in said
+    assert ("is served there already" in said) is served
+    assert [env["MLFLOW_BACKEND_STORE_URI"] for _, env in called] == ([] if served else [address])
+    assert "secret" not in said + str([command for command, _ in called])
 
 
 @pytest.mark.parametrize(

@@ -3,7 +3,7 @@ from __future__ import annotations
 from typing import Any
 
 from softkin.tracking import Campaign
-from softkin.tracking.links import links
+from softkin.tracking.links import link_to, links
 from softkin.tracking.store import client_of, experiment_of
 
 
@@ -14,6 +14,7 @@ def test_each_experiment_has_a_link_to_its_runs_and_its_view(campaign: Campaign)
     assert list(found) == ["campaigns", "calibrated models", "nights as curves", "arm", "finger"]
     runs = "runs?workflowType=machine_learning&viewStateShareKey="
     assert found["finger"] == f"/#/experiments/{ids['finger']}/{runs}models_by_error"
+    assert link_to(client, "finger") == found["finger"]
     assert found["campaigns"] == f"/#/experiments/{ids['campaigns']}/{runs}nights"
     assert found["calibrated models"] == f"/#/experiments/{ids['champions']}/{runs}champions"
 
