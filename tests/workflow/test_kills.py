@@ -26,11 +26,14 @@ import yaml
 from mlflow import MlflowClient
 from mlflow.entities import ViewType
 
+from softkin.tracking.artifacts import folder_of
 from softkin.tracking.records import CURRENT, KEY
 from tests.conftest import HOUSE
 from tests.workflow.conftest import House, copy_house
 from tests.workflow.test_campaign import SMALL
 
+#: A store of another name than MLflow's own, in folders of names that are hard to quote.
+STORE, WORK = "Läufe 1.db", "Arbeit für 🦾 {}"
 N_KILLS = int(os.environ.get("SOFTKIN_KILLS", "20"))
 #: Of a run from nothing these are others each time.
 TIMINGS = ["fit_seconds", "predict_us_per_row", "seconds", "cpu_seconds"]
@@ -41,7 +44,7 @@ TRACKING, RETRIEVAL, SOMEWHERE = "tracking", "retrieval", "somewhere"
 MOMENTS = (TRACKING, SOMEWHERE, RETRIEVAL, SOMEWHERE, SOMEWHERE)
 #: What is deleted of a finished run so that its next job is the one that is killed.
 DELETED = {
-    TRACKING: ["mlflow.db*", "mlartifacts", "results/mlflow_store.json", "results/arm/mlflow_runs.json"],
+    TRACKING: [f"{STORE}*", "mlartifacts", "results/mlflow_store.json", "results/arm/mlflow_runs.json"],
     RETRIEVAL: ["results/arm/raw"],
 }
 LOG = {TRACKING: "results/logs/track/arm.log", RETRIEVAL: "results/logs/retrieve/arm.log"}
@@ -70,13 +73,14 @@ class Calm:
 def calm(tmp_path_factory: pytest.TempPathFactory, mirror: Path) -> Calm:
     folder = tmp_path_factory.mktemp("kills")
     copy_house(folder / "house")
-    house = House(folder / "house", folder / "work", mirror)
+    house = House(folder / "house", folder / WORK.format(0), mirror)
     entry: dict[str, Any] = {"title": "Arm", "format": "table_file", "position_unit": "mm"}
     entry |= {"file": str(folder / "arm.csv"), "commands": "p[0-9]_bar", "positions": ".*_[xyz]"}
     lines = (HOUSE / "config" / "examples" / "bending_arm.csv").read_text().splitlines()
     (folder / "arm.csv").write_text("\n".join(lines[:501]) + "\n")
     small = folder / "small.yaml"
-    small.write_text(yaml.safe_dump(SMALL | {"sources": {"arm": entry | {"split": {"method": "random"}}}}))
+    sources = {"arm": entry | {"split": {"method": "random"}}}
+    small.write_text(yaml.safe_dump(SMALL | {"tracking_uri": f"sqlite:///{STORE}", "sources": sources}))
     house.work.mkdir()
     calm = Calm(house, small)
     done = calm.run(house.work)
@@ -91,7 +95,7 @@ def test_a_run_that_was_killed_ends_as_an_undisturbed_one(calm: Calm, tmp_path: 
     undisturbed, killed = store(calm.house.work), Counter[tuple[str, str]]()
     for number in range(N_KILLS):
         moment, victim = MOMENTS[number % len(MOMENTS)], VICTIMS[number % len(VICTIMS)]
-        work, at = tmp_path / str(number), ""
+        work, at = tmp_path / WORK.format(number), ""
         for _ in range(5):  # until the run has not ended before
             shutil.rmtree(work, ignore_errors=True)
             prepare(calm, work, moment)
@@ -214,8 +218,9 @@ def assert_same_tables(here: Path, there: Path) -> None:
 
 def store(work: Path) -> dict[str, Any]:
     """What a store has of each key: no run twice, none that still runs, no logged model that is half there."""
-    client = MlflowClient(f"sqlite:///{work / 'mlflow.db'}")
+    client = MlflowClient(f"sqlite:///{work / STORE}")
     found: dict[str, Any] = {}
+    assert {path.name for path in work.rglob("*.db")} == {STORE}, "another store was made"
     for experiment in client.search_experiments(view_type=ViewType.ACTIVE_ONLY):
         runs = client.search_runs([experiment.experiment_id], max_results=1000)
         assert {run.info.status for run in runs} <= {"FINISHED"}
@@ -223,7 +228,7 @@ def store(work: Path) -> dict[str, Any]:
         assert not [key for key, number in current.items() if number > 1]
         models = client.search_logged_models([experiment.experiment_id])
         assert {str(model.status) for model in models} <= {"READY", "LoggedModelStatus.READY"}
-        assert all(Path(str(model.artifact_location).removeprefix("file://")).exists() for model in models)
+        assert all(folder_of(str(model.artifact_location)).exists() for model in models)
         found[experiment.name] = (sorted(current), len(runs), len(models))
     for registered in client.search_registered_models():
         versions = client.search_model_versions(f"name = '{registered.name}'")
