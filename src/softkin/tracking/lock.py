@@ -2,7 +2,8 @@
 
 Two that do so at once would each see runs that the other has not finished, and delete or double them. A store in a file
 has a lock file beside it, which the system frees when its process ends. A server has a registered model of the lock's
-name: MLflow refuses a second one of a name, so whoever made it has the lock.
+name: MLflow refuses a second one of a name, so whoever made it has the lock. That of a process which died is broken at
+once on its own machine, elsewhere when its lease has ended.
 """
 
 from __future__ import annotations
@@ -11,12 +12,14 @@ import logging
 import os
 import socket
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+import psutil
 from filelock import FileLock, Timeout
 from mlflow import MlflowClient
+from mlflow.entities.model_registry import RegisteredModel
 from mlflow.exceptions import MlflowException
 
 from softkin.core.addresses import SQLITE
@@ -31,6 +34,8 @@ LEASE = 1800.0
 PATIENCE, PAUSE = 3600.0, 2.0
 #: What the names of locks on a server begin with.
 PREFIX = "softkin-lock-"
+#: Tag of a lock on a server: the process that has it.
+PROCESS = "process"
 
 
 @contextmanager
@@ -68,9 +73,8 @@ def _file_lock(tracking_uri: str, name: str, patience: float) -> Iterator[None]:
 def _server_lock(tracking_uri: str, name: str, patience: float) -> Iterator[None]:
     check_answers(tracking_uri)
     client, lock = MlflowClient(tracking_uri, tracking_uri), f"{PREFIX}{name}"
-    holder = f"{socket.gethostname()} {os.getpid()}"
     deadline = time.monotonic() + patience
-    while not _made(client, lock, holder):
+    while not _made(client, lock):
         _break_if_old(client, lock)
         if time.monotonic() > deadline:
             raise _taken(lock, patience)
@@ -78,13 +82,14 @@ def _server_lock(tracking_uri: str, name: str, patience: float) -> Iterator[None
     try:
         yield
     finally:
-        client.delete_registered_model(lock)
+        _delete_if(client, lock, lambda there: there.tags.get(PROCESS) == this_process())
 
 
-def _made(client: MlflowClient, lock: str, holder: str) -> bool:
+def _made(client: MlflowClient, lock: str) -> bool:
     """Whether this process has made the lock; False where it is there."""
+    holder = {"holder": f"{socket.gethostname()} {os.getpid()}", PROCESS: this_process()}
     try:
-        client.create_registered_model(lock, {"holder": holder}, "A lock of softkin: it goes when logging is done.")
+        client.create_registered_model(lock, holder, "A lock of softkin: it goes when logging is done.")
     except MlflowException as error:
         if error.error_code == "RESOURCE_ALREADY_EXISTS":
             return False
@@ -93,17 +98,51 @@ def _made(client: MlflowClient, lock: str, holder: str) -> bool:
 
 
 def _break_if_old(client: MlflowClient, lock: str) -> None:
-    """Delete a lock whose lease has ended."""
+    """Delete a lock whose lease has ended, or whose process has."""
+
+    def is_old(there: RegisteredModel) -> bool:
+        old = time.time() - there.creation_timestamp / 1000 > LEASE or has_ended(there.tags.get(PROCESS, ""))
+        if old:
+            logger.warning("the lock %s of %s is broken: its process has ended", lock, there.tags.get("holder"))
+        return old
+
+    _delete_if(client, lock, is_old)
+
+
+def _delete_if(client: MlflowClient, lock: str, condition: Callable[[RegisteredModel], bool]) -> None:
+    """Delete a lock that is there and meets the condition."""
     try:
-        there = client.get_registered_model(lock)
-        if time.time() - there.creation_timestamp / 1000 > LEASE:
-            logger.warning(
-                "the lock %s of %s is older than %.0f s and is broken", lock, there.tags.get("holder"), LEASE
-            )
+        if condition(client.get_registered_model(lock)):
             client.delete_registered_model(lock)
     except MlflowException as error:
         if error.error_code != "RESOURCE_DOES_NOT_EXIST":
             raise
+
+
+def this_process() -> str:
+    """What names this process and no other: where its number counts, the number, and when it started."""
+    return f"{_here()} {os.getpid()} {psutil.Process().create_time():.2f}"
+
+
+def has_ended(process: str) -> bool:
+    """Whether a process that `this_process` named has ended; False where its number does not count here."""
+    here, number, started = process.rsplit(" ", 2) if process.count(" ") > 1 else ("", "", "")
+    if not _here() or here != _here():
+        return False
+    try:
+        there = psutil.Process(int(number))
+        return there.status() == psutil.STATUS_ZOMBIE or f"{there.create_time():.2f}" != started
+    except psutil.NoSuchProcess:
+        return True
+
+
+def _here() -> str:
+    """Names the start of this machine and the space of its processes' numbers; '' where nothing tells them."""
+    try:
+        boot = Path("/proc/sys/kernel/random/boot_id").read_text(encoding="ascii").strip()
+        return f"{boot} {os.readlink('/proc/self/ns/pid')}"
+    except OSError:
+        return ""
 
 
 def _taken(lock: str, patience: float) -> StoreError:

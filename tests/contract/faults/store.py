@@ -109,7 +109,12 @@ FAULTS = [
     ),
     Fault(
         "a process dies with its lock on a server",
-        "the lock ends with its lease",
+        "the next one on its machine breaks the lock",
+        f"{LOCK}::test_a_lock_on_a_server_ends_with_its_process_where_it_ran",
+    ),
+    Fault(
+        "a process dies with its lock on a server, and its machine with it",
+        "the lock ends with its lease of half an hour",
         f"{LOCK}::test_a_lock_on_a_server_ends_with_its_lease",
     ),
     Fault(

@@ -12,12 +12,13 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
+import psutil
 import pytest
 from mlflow import MlflowClient
 
 from softkin.core.errors import StoreError
 from softkin.tracking import Campaign
-from softkin.tracking.lock import PREFIX, _break_if_old, _server_lock, locked
+from softkin.tracking.lock import PREFIX, PROCESS, _break_if_old, _server_lock, has_ended, locked, this_process
 from softkin.tracking.records import CURRENT, KEY
 from tests.workflow.mlflow_server import serving, sqlite
 
@@ -70,6 +71,37 @@ def test_a_lock_on_a_server_ends_with_its_lease(campaign: Campaign, monkeypatch:
     _break_if_old(client, f"{PREFIX}finger")
     assert client.search_registered_models() == []
     _break_if_old(client, f"{PREFIX}finger")
+
+
+def test_a_lock_on_a_server_ends_with_its_process_where_it_ran(campaign: Campaign) -> None:
+    """A run that was killed holds up the next one for a moment and not for half an hour."""
+    client = MlflowClient(campaign.tracking_uri, campaign.tracking_uri)
+    place = this_process().rsplit(" ", 2)[0]
+    with subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE) as other:
+        name = f"{place} {other.pid} {psutil.Process(other.pid).create_time():.2f}"
+        client.create_registered_model(f"{PREFIX}finger", {PROCESS: name})
+        _break_if_old(client, f"{PREFIX}finger")
+        assert len(client.search_registered_models()) == 1, "it lives"
+        other.kill()
+    _break_if_old(client, f"{PREFIX}finger")
+    with _server_lock(campaign.tracking_uri, "finger", 0):
+        assert client.get_registered_model(f"{PREFIX}finger").tags[PROCESS] == this_process()
+
+
+def test_numbers_of_processes_count_where_they_were_given_alone() -> None:
+    place, number, started = this_process().rsplit(" ", 2)
+    assert has_ended(f"{place} {number} {float(started) - 60:.2f}"), "the number was given anew"
+    for other in (this_process(), f"another {number} {started}", f"{place[:-2]}0] 1 1.00", "", "a b"):
+        assert not has_ended(other)
+
+
+def test_a_lock_that_another_has_by_now_is_not_deleted(campaign: Campaign) -> None:
+    """This process held it beyond its lease."""
+    client = MlflowClient(campaign.tracking_uri, campaign.tracking_uri)
+    with _server_lock(campaign.tracking_uri, "finger", 1):
+        client.delete_registered_model(f"{PREFIX}finger")
+        client.create_registered_model(f"{PREFIX}finger", {PROCESS: "another"})
+    assert len(client.search_registered_models()) == 1
 
 
 WRITE = """
