@@ -6,8 +6,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from softkin.data.audit.findings import NOTE
-
 #: What of a dataset must stay, in words: numbers of robots that differ in it cannot be compared.
 SCHEMA = {
     "n_commands": "number of commands",
@@ -45,6 +43,8 @@ def changes_between(before: Mapping[str, Any], now: Mapping[str, Any]) -> Change
 
 
 def _of_dataset(name: str, before: Mapping[str, Any], now: Mapping[str, Any], found: Changes) -> None:
+    from softkin.data.audit.findings import NOTE  # with all checks, which a verdict does not need
+
     for key, words in SCHEMA.items():
         if before[key] != now[key]:
             found.for_a_person.append(f"{name}: the {words} is {_text(now[key])}, before {_text(before[key])}.")

@@ -12,15 +12,16 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+import threading
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from importlib import import_module
 from pathlib import Path
 
 from softkin.campaigns.verdict import BUSY, EXIT_CODES, FAILED, UNFINISHED, Verdict
 from softkin.cli.held_lock import HeldLock
-from softkin.cli.judging import Results, judge_results, log_failure
 from softkin.cli.notification import take_urls, tell
 from softkin.cli.workflow_process import Ended, Stopped, run_workflow, stoppable
 from softkin.core.errors import SoftkinError
@@ -77,12 +78,16 @@ def _write(results: Path, verdict: Verdict) -> None:
 def _campaign(asked: Arguments, results: Path) -> Verdict:
     """Run the workflow, and judge what it left."""
     started = time.time()
+    # Loading MLflow takes seconds, in which the workflow sees what is to be done.
+    threading.Thread(target=import_module, args=("softkin.cli.judging",), daemon=True).start()
     ended = run_workflow(_command(asked), directory=asked.directory, results=results, refit=asked.refit)
-    found = Results(results, started, ended)
+    from softkin.cli import judging
+
+    found = judging.Results(results, started, ended)
     reasons = _reasons(ended, results, started) if ended.exit_code != 0 else []
     try:
         with stoppable():
-            return log_failure(found, reasons) if reasons else judge_results(found, refit=asked.refit)
+            return judging.log_failure(found, reasons) if reasons else judging.judge_results(found, refit=asked.refit)
     except Stopped as stopped:
         reasons = [*reasons, f"It was stopped by {stopped} while its results were judged."]
         return Verdict(FAILED, reasons, facts=found.facts())

@@ -17,7 +17,7 @@ from filelock import FileLock
 from mlflow.exceptions import MlflowException
 
 from softkin.campaigns.verdict import Verdict
-from softkin.cli import campaign
+from softkin.cli import campaign, judging
 from softkin.cli.workflow_process import Ended
 from softkin.core.errors import StoreError
 from softkin.core.files import read_json, write_json
@@ -98,7 +98,7 @@ def test_a_campaign_that_is_stopped_while_it_is_judged_says_so(tmp_path: Path, m
         pytest.fail("the campaign goes on")
 
     monkeypatch.setattr(campaign, "run_workflow", lambda *_, **__: ended(0))
-    monkeypatch.setattr(campaign, "judge_results", stubborn)
+    monkeypatch.setattr(judging, "judge_results", stubborn)
     assert campaign.main(["--directory", str(tmp_path)]) == 1
     reasons = read_json(tmp_path / "results" / "verdict.json")["reasons"]
     assert reasons == ["It was stopped by SIGTERM while its results were judged."]
@@ -129,7 +129,7 @@ def test_a_tracking_server_that_is_gone_hides_no_other_reason(tmp_path: Path, mo
         raise StoreError("the tracking server does not answer", where="http://127.0.0.1:5", fix="start it")
 
     monkeypatch.setattr(campaign, "run_workflow", lambda *_, **__: ended())
-    monkeypatch.setattr(campaign, "log_failure", gone)
+    monkeypatch.setattr(judging, "log_failure", gone)
     assert campaign.main(["--directory", str(tmp_path)]) == 1
     first, second = read_json(tmp_path / "results" / "verdict.json")["reasons"]
     assert first.startswith("The workflow ended with exit code 1")
@@ -166,11 +166,11 @@ def test_an_error_of_mlflow_is_a_verdict_and_a_defect_is_not(tmp_path: Path, mon
         return judge
 
     monkeypatch.setattr(campaign, "run_workflow", lambda *_, **__: ended(0))
-    monkeypatch.setattr(campaign, "judge_results", raising(MlflowException("API request failed")))
+    monkeypatch.setattr(judging, "judge_results", raising(MlflowException("API request failed")))
     assert campaign.main(["--directory", str(tmp_path)]) == 1
     (reason,) = read_json(tmp_path / "results" / "verdict.json")["reasons"]
     assert reason.startswith("the MLflow store: mlflow says: API request failed")
-    monkeypatch.setattr(campaign, "judge_results", raising(ZeroDivisionError()))
+    monkeypatch.setattr(judging, "judge_results", raising(ZeroDivisionError()))
     with pytest.raises(ZeroDivisionError):
         campaign.main(["--directory", str(tmp_path)])
 
