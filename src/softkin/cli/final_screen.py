@@ -69,15 +69,13 @@ def _files(place: Path, made: Collection[Path], datasets: Sequence[str]) -> Iter
 
 
 def _links(made: Collection[Path], datasets: Sequence[str], folder: Path) -> Iterator[str]:
-    """A line for each dataset whose runs are in MLflow: where the UI shows them."""
+    """A line for each dataset whose runs are in MLflow: where the UI shows them. Results of before 0.2 have no link."""
     logged = {name: RESULTS / name / "mlflow_runs.json" for name in datasets}
-    logged = {name: file for name, file in logged.items() if file in made}
-    if not logged:
-        return
-    base = ui_address(read_json(folder / STORE)["tracking_uri"])
-    width = max(map(len, logged))
-    for name, file in logged.items():
-        yield f"    {name:<{width}}  {base}{read_json(folder / file)['link']}"
+    found = {name: read_json(folder / file).get("link") for name, file in logged.items() if file in made}
+    links = {name: link for name, link in found.items() if link}
+    for name, link in links.items():
+        base = ui_address(read_json(folder / STORE)["tracking_uri"])
+        yield f"    {name:<{max(map(len, links))}}  {base}{link}"
 
 
 class AtMessage(logging.Handler):

@@ -43,6 +43,12 @@ def test_links_are_those_of_a_server_without_its_credentials(folder: Path) -> No
     assert "arm  https://example.org/mlflow/#/experiments/7/runs?a\n" in text
 
 
+def test_results_of_an_earlier_version_have_no_link(folder: Path) -> None:
+    write_json(folder / "results" / "arm" / "mlflow_runs.json", {"runs": {}})
+    text = final_screen(Path(), ALL, ["arm"], jobs=(0, 3), folder=folder)
+    assert text.rstrip().endswith("browse every run in the MLflow UI")
+
+
 def test_paths_are_those_of_the_folder_of_the_run(folder: Path) -> None:
     text = final_screen(Path("results/test run"), ALL, ["arm"], jobs=(1, 3), folder=folder)
     paths = [line.split("  ")[1] for line in text.splitlines() if line.startswith("  ") and line[2] != " "]
