@@ -5,11 +5,15 @@ LINES is the file that `python -m benchmarks.latency` printed; `make latency-pag
 
 from __future__ import annotations
 
+import argparse
 import json
 import sys
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
+
+from softkin.core.errors import ResultError, SoftkinError
+from softkin.core.files import write_text
 
 PAGE = Path(__file__).parents[1] / "docs" / "latency.md"
 HEAD = """# What an answer costs
@@ -82,5 +86,31 @@ def read(lines: Iterable[str]) -> list[dict[str, Any]]:
     return [json.loads(line) for line in lines if line.strip()]
 
 
+def main() -> int:
+    """Write the page; 2, with a sentence, where there are no such lines."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("lines", metavar="LINES", type=Path, help="what python -m benchmarks.latency printed")
+    parser.add_argument("--page", type=Path, default=PAGE)
+    options = parser.parse_args()
+    try:
+        write_text(options.page, page(_measured(options.lines)))
+    except SoftkinError as error:
+        print(error, file=sys.stderr)
+        return 2
+    return 0
+
+
+def _measured(lines: Path) -> list[dict[str, Any]]:
+    """The rows of the file.
+
+    Raises:
+        ResultError: there is no such file, or it holds other things.
+    """
+    try:
+        return read(lines.read_text(encoding="utf-8").splitlines())
+    except (OSError, ValueError) as error:
+        raise ResultError(f"cannot be read: {error}", where=lines, fix="measure anew: make latency-page") from error
+
+
 if __name__ == "__main__":
-    PAGE.write_text(page(read(Path(sys.argv[1]).read_text(encoding="utf-8").splitlines())), encoding="utf-8")
+    sys.exit(main())
