@@ -139,6 +139,24 @@ def inverse(
     return 0 if (table["verdict"] == "reachable").all() else 3
 
 
+@app.command(epilog="Example: softkin suggest results/finger/calibrated_model.joblib --rows 50 --to next.csv")
+@explained
+@of_a_model
+def suggest(
+    robot: Any,
+    rows: Annotated[int, typer.Option(help="how many commands, the most telling first")] = 50,
+    inside: Annotated[
+        bool, typer.Option("--inside", help="only commands in-domain, near those of the recording")
+    ] = False,
+    level: Annotated[float, typer.Option(help="confidence level of the intervals in width_mm, in (0, 1)")] = 0.9,
+    seed: Annotated[int, typer.Option(help="another one gives other commands")] = 0,
+    out: Out = Form.CSV,
+    to: To = None,
+) -> None:
+    """Commands worth measuring next: between the bounds of the recording, far from all commands that were measured."""
+    _write(robot.suggest(rows, inside=inside, confidence=level, seed=seed), out, to)
+
+
 def _write(table: Any, out: Form, to: Path | None) -> None:
     """The table to a file, or to standard output."""
     from softkin.cli.use_model import finite

@@ -30,10 +30,11 @@ from softkin.uncertainty.new_session import labelled_errors, zero_spread
 from softkin.uncertainty.prepared import Prepared
 from softkin.uncertainty.promise import asked_levels
 from softkin.uncertainty.recalibration import Recalibration, recalibration
+from softkin.uncertainty.suggestions import Suggestions
 
 
 @dataclass(frozen=True, repr=False)
-class CalibratedModel(Inverse):
+class CalibratedModel(Inverse, Suggestions):
     """Positions, intervals, joint regions and p-values at any commands (n_rows, n_commands), in mm.
 
     Commands may be an array, lists, one row, or a DataFrame by the robot's own names, which DataFrames answer.

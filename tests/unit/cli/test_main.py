@@ -80,6 +80,20 @@ def test_commands_for_targets_say_what_is_out_of_reach(folder: Path) -> None:
     assert inside.stdout.startswith("left,right,m1_x,lower_m1_x,upper_m1_x,")
 
 
+def test_commands_worth_measuring_are_what_predict_takes(folder: Path) -> None:
+    done = asked("suggest", "model.joblib", "--trust", "--rows", "5", "--to", "next.csv")
+    assert (done.exit_code, done.stdout, done.stderr) == (0, "", "")
+    table = pd.read_csv(folder / "next.csv")
+    assert list(table) == ["left", "right", "distance", "width_mm", "outside"]
+    assert len(table) == 5
+    assert asked("predict", "model.joblib", "next.csv", "--trust").exit_code == 0
+    written = json.loads(asked("suggest", "model.joblib", "--trust", "--rows", "2", "--inside", "--out", "json").stdout)
+    assert [row["outside"] for row in written] == [False, False]
+    assert asked("suggest", "model.joblib", "--trust", "--rows", "5", "--out", "parquet", "--to", "p").exit_code == 0
+    pd.testing.assert_frame_equal(pd.read_parquet("p"), table)
+    assert asked("suggest", "model.joblib", "--trust", "--rows", "5", "--seed", "1").stdout != table.to_csv(index=False)
+
+
 @pytest.mark.parametrize(("recording", "code"), [("well.csv", 0), ("moved.csv", 3)])
 def test_the_exit_code_says_whether_the_robot_is_where_it_should_be(folder: Path, recording: str, code: int) -> None:
     del folder
@@ -105,6 +119,9 @@ def test_the_exit_code_says_whether_the_robot_is_where_it_should_be(folder: Path
         (["inverse", "model.joblib", "commands.csv", "--trust"], "missing 'tip x'"),
         (["inverse", "model.joblib", "far.csv", "--trust", "--marker", "3"], "3 is no marker of this robot"),
         (["inverse", "model.joblib", "far.csv", "--trust", "--confidence", "90"], "write it as 0.9"),
+        (["suggest", "model.joblib", "--trust", "--rows", "0"], "0 is no number of rows"),
+        (["suggest", "model.joblib", "--trust", "--level", "90"], "write it as 0.9"),
+        (["suggest", "none.joblib"], "no such file"),
         (["doctor"], "run it in the folder of softkin"),
     ],
 )
@@ -133,6 +150,7 @@ def test_help_has_examples_and_exit_codes_and_loads_no_numerical_library() -> No
         "check",
         "export",
         "inverse",
+        "suggest",
         "ui",
         "campaign",
         "verify",
