@@ -35,7 +35,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     figure, [[axes]] = panels(1, 1, PAGE, 3.2)
     names = [f"{results.model_titles[row.model]}, {row.preset}" for row in frame.itertuples()]
     axes.barh(names, frame["euclidean_mean_mm"], color=BLUE)
-    axes.set_xlabel("mean marker error on test (mm)")
+    axes.set_xlabel(f"mean marker error on test ({results.unit})")
     heading(figure, results, "mean error in-domain", shows=[TEST])
     return figure
 

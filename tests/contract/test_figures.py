@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -12,6 +13,7 @@ import numpy as np
 import pandas as pd
 import pytest
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 from PIL import Image
 
 from softkin.core.files import sha256_of
@@ -36,7 +38,7 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> DatasetResults:
     folder = tmp_path_factory.mktemp("results")
     write_table(to_table(with_recording(four_subsets(dict.fromkeys(SUBSETS, 40)))), folder / "table.parquet")
     write_results(folder)
-    return results_in(folder)
+    return replace(results_in(folder), unit="px")
 
 
 @pytest.fixture(scope="module")
@@ -81,16 +83,23 @@ def has_a_frame_that_names_its_runs(_name: str, spec: Spec, results: Results, _f
 
 
 def repeats_itself_and_changes_nothing(_name: str, spec: Spec, results: Results, _folder: Path) -> None:
-    """Neither the results, nor the frame that it is drawn from, nor matplotlib's settings."""
+    """Neither the results, nor the frame that it is drawn from, nor matplotlib's settings; lengths are in its unit."""
     files, settings = files_of(results), dict(mpl.rcParams)
     before = sha256_of(files)
     with laws.global_random_states_kept():
         frame, again = (spec.frame(results) for _ in range(2))
         pd.testing.assert_frame_equal(frame, again)
-        spec.plot(frame, results)
+        figure = spec.plot(frame, results)
+    assert isinstance(results, CampaignResults) or not says_millimetres(figure)
     pd.testing.assert_frame_equal(frame, again)
     assert (files_of(results), sha256_of(files)) == (files, before)
     assert dict(mpl.rcParams) == settings
+
+
+def says_millimetres(figure: Figure) -> list[str]:
+    """The texts of a figure that have the word."""
+    texts = [text.get_text() for text in figure.findobj(Text)]
+    return [text for text in texts if re.search(r"\bmm\b", text)]
 
 
 def is_drawn_within_a_page(name: str, spec: Spec, results: Results, folder: Path) -> None:
@@ -145,6 +154,10 @@ def too_wide(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     return figure
 
 
+def in_millimetres(frame: pd.DataFrame, results: DatasetResults) -> Figure:
+    return RANKING.plot(frame, replace(results, unit="mm"))
+
+
 def eating_its_frame(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     figure = RANKING.plot(frame, results)
     frame["model"] = ""
@@ -164,6 +177,7 @@ def of_its_own_font(frame: pd.DataFrame, results: DatasetResults) -> Figure:
         (has_a_frame_that_names_its_runs, of_changed_frame(lambda frame: frame.iloc[:0])),
         (has_a_frame_that_names_its_runs, of_changed_frame(lambda frame: frame.drop(columns="model"))),
         (repeats_itself_and_changes_nothing, of_changed_frame(lambda frame: frame.sample(frac=1.0, axis=1))),
+        (repeats_itself_and_changes_nothing, {"plot": in_millimetres}),
         (repeats_itself_and_changes_nothing, {"plot": eating_its_frame}),
         (repeats_itself_and_changes_nothing, {"plot": of_its_own_font}),
         (is_drawn_within_a_page, {"plot": blank}),

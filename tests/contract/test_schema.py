@@ -14,7 +14,6 @@ from softkin.cli.configuration import REGISTRIES
 from softkin.core.configuration import check_configuration
 from softkin.core.errors import ConfigError
 from softkin.core.runs import PRESETS
-from softkin.data.prepare import MM_PER_UNIT
 from softkin.data.readers import READERS
 from softkin.data.readers.complete_rows import MISSING
 from softkin.data.readers.joined_tables import JOINS
@@ -36,7 +35,6 @@ LISTED = {
     "regime": REGIMES,
     "promote": ("auto", "manual"),
     "when_unreachable": ("simulate", "fail"),
-    "position_unit": MM_PER_UNIT,
     "dimensions": (2, 3),
     "missing": MISSING,
     "by": JOINS,

@@ -5,6 +5,7 @@ from pathlib import Path
 from softkin.core.files import read_json
 from softkin.core.job import job
 from softkin.core.manifest import files_of, files_of_runs
+from softkin.core.units import unit_of
 from softkin.models import MODELS
 from softkin.models.ensembles import ENSEMBLES
 from softkin.models.quantile import QUANTILE_MODELS
@@ -19,10 +20,11 @@ specs = QUANTILE_MODELS | MODELS | ENSEMBLES
 
 
 with job(snakemake.log[0], f"draw figures {dataset}", snakemake.output, snakemake.input, snakemake.params):
+    about = read_json(files.description)
     trials = files_of_runs(files.models, params.tuned, "trials.csv")
     results = DatasetResults(
         dataset=dataset,
-        title=read_json(files.description)["title"],
+        title=about["title"],
         table=Path(files.table),
         predictions=files_of_runs(files.models, params.runs, "predictions.parquet"),
         trials={run.model: path for run, path in trials.items()},
@@ -39,5 +41,6 @@ with job(snakemake.log[0], f"draw figures {dataset}", snakemake.output, snakemak
         has_own_regressors={
             name: not method.calibrated_on.is_around_a_model for name, method in INTERVAL_METHODS.items()
         },
+        unit=unit_of(about),
     )
     draw(FIGURES, results, Path(snakemake.output[0]))

@@ -21,10 +21,11 @@ from softkin.campaigns.bootstrap import p_of_growth, p_of_growth_between
 from softkin.campaigns.summary import SCORED
 from softkin.core.metrics.interval import holm
 from softkin.core.samples import Array
+from softkin.core.units import MM
 
 ERROR, COVERAGE, WIDTH = METRICS = ("error", "coverage", "width")
 #: What is compared, in words.
-TITLES = {ERROR: "mean error of a marker, mm", COVERAGE: "coverage", WIDTH: "mean width of an interval, mm"}
+TITLES = {ERROR: "mean error of a marker", COVERAGE: "coverage", WIDTH: "mean width of an interval"}
 WORSE, SAME, BETTER = "worse", "same", "better"
 #: With fewer distinct commands a difference is not assessed.
 FEWEST = 10
@@ -53,7 +54,8 @@ class Tolerances:
 @dataclass(frozen=True, slots=True)
 class Comparison:
     """One number of one subset of a dataset, before and now. `p_worse` and `p_better` are corrected; `paired` says
-    whether the same rows were scored both times, `n_commands` how many distinct commands now.
+    whether the same rows were scored both times, `n_commands` how many distinct commands now; `unit` is that of errors
+    and widths.
     """
 
     dataset: str
@@ -66,6 +68,12 @@ class Comparison:
     p_worse: float
     p_better: float
     outcome: str = SAME
+    unit: str = MM
+
+    @property
+    def title(self) -> str:
+        """What the number is: 'mean error of a marker, mm'."""
+        return TITLES[self.metric] if self.metric == COVERAGE else f"{TITLES[self.metric]}, {self.unit}"
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON, without numbers that JSON has none for."""
@@ -80,6 +88,7 @@ def compare(
     confidence_level: float,
     calibration_rows: Mapping[str, int],
     tolerances: Tolerances,
+    units: Mapping[str, str] | None = None,
     seed: int = 0,
 ) -> list[Comparison]:
     """The comparisons of the datasets that both campaigns scored.
@@ -89,6 +98,7 @@ def compare(
         confidence_level: nominal level of the intervals, in (0, 1).
         calibration_rows: dataset -> rows of its `validation` now.
         tolerances: from when on a difference counts.
+        units: dataset -> unit of its errors and widths; mm where it has none.
         seed: of the bootstrap.
     """
     found, shared = [], [name for name in now["dataset"].unique() if name in set(before["dataset"])]
@@ -101,7 +111,7 @@ def compare(
             if len(old) and len(new):
                 law = _Law(confidence_level, calibration_rows[dataset])
                 found += _of_subset((dataset, subset), old, new, law, tolerances, seed)
-    return judged(found, tolerances)
+    return [replace(one, unit=(units or {}).get(one.dataset, MM)) for one in judged(found, tolerances)]
 
 
 def judged(comparisons: Sequence[Comparison], tolerances: Tolerances) -> list[Comparison]:

@@ -16,6 +16,7 @@ from softkin.core.bounds import read_bounds
 from softkin.core.files import read_json, replacing, write_json
 from softkin.core.metrics.interval import covered, widths
 from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, Array, coordinate_columns, informative_coordinates
+from softkin.core.units import own_unit, unit_of
 from softkin.data.table import read_subset
 from softkin.reporting.tables.interval_choice import deployed_intervals
 
@@ -55,9 +56,9 @@ def summarise(
     """Write the summary of a run (JSON) and its rows (Parquet).
 
     The summary has the configuration and its hash, and of each dataset its data, findings, deployed model and interval
-    method, and headline metrics (mm, and shares in [0, 1]; null where infinite). The rows have the columns dataset,
-    subset, row, command (both hashes of numbers), error_mm (mean over markers of the distance to the true position),
-    width_mm (mean over moving coordinates), and covered, a digit 0 or 1 for each moving coordinate.
+    method, and headline metrics (mm, or the dataset's `unit`, and shares in [0, 1]; null where infinite). The rows have
+    the columns dataset, subset, row, command (both hashes of numbers), error_mm (mean over markers of the distance to
+    the true position), width_mm (mean over moving coordinates), and covered, a digit 0 or 1 for each moving coordinate.
 
     Parameters:
         config: the configuration of the run, with `sources`.
@@ -100,7 +101,8 @@ def _data(dataset: str, layout: Layout) -> dict[str, Any]:
     card = read_json(layout.data_card.format(dataset=dataset))
     kept = ("title", "origin", "sha256", "rows", "n_commands", "n_markers", "constant_coordinates", "content_sha256")
     findings = [{name: one[name] for name in ("code", "severity", "sentence")} for one in card["findings"]]
-    return {name: described[name] for name in kept} | {"unit_in_file": card["unit_in_file"], "findings": findings}
+    units = {"unit_in_file": card["unit_in_file"], **own_unit(unit_of(described))}
+    return {name: described[name] for name in kept} | units | {"findings": findings}
 
 
 def _metrics(chosen: pd.Series, scores: pd.DataFrame, interval_scores: pd.DataFrame) -> dict[str, float | None]:

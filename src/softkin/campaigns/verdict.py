@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from softkin.campaigns.changes import Changes
-from softkin.campaigns.comparison import BETTER, COVERAGE, TITLES, WORSE, Comparison
+from softkin.campaigns.comparison import BETTER, COVERAGE, WORSE, Comparison
 from softkin.reporting.tables.numbers import number_text, share_text
 
 #: How a night ends.
@@ -105,7 +105,7 @@ def sentence(one: Comparison) -> str:
     """What a comparison says."""
     before, now = (_number(one, value) for value in (one.before, one.now))
     p = min(one.p_worse, one.p_better)
-    return f"{one.dataset}, {one.subset}: the {TITLES[one.metric]} is {now}, before {before} (p = {p:.2g})."
+    return f"{one.dataset}, {one.subset}: the {one.title} is {now}, before {before} (p = {p:.2g})."
 
 
 def _number(one: Comparison, value: float) -> str:
@@ -115,7 +115,7 @@ def _number(one: Comparison, value: float) -> str:
 def _row(one: Comparison) -> str:
     before, now = (_number(one, value) for value in (one.before, one.now))
     p = f"{min(one.p_worse, one.p_better):.2g}"
-    return f"| {one.dataset} | {one.subset} | {TITLES[one.metric]} | {before} | {now} | {one.outcome} | {p} |"
+    return f"| {one.dataset} | {one.subset} | {one.title} | {before} | {now} | {one.outcome} | {p} |"
 
 
 def _cell(value: Any) -> str:

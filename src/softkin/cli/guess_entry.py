@@ -14,6 +14,7 @@ from softkin.cli import column_kinds
 from softkin.cli.guess_questions import PIXELS, Question, question_of, reasons_left_out, words_of
 from softkin.core.errors import DataError
 from softkin.core.samples import Array
+from softkin.core.units import MM_PER_UNIT
 from softkin.data import split
 from softkin.data.readers.columns import axis_of, marker_by_marker, unit_of
 from softkin.data.readers.memory_table import Table
@@ -35,7 +36,9 @@ WORDS = {
 SESSION = re.compile(r"session|trial|run")
 #: A workspace wider than this is taken to be in mm: no robot is so many metres wide.
 LARGEST_METRES = 5.0
-UNITS = frozenset({"m", "cm", "mm", "in"})
+#: A camera's unit; what a row of units or a name may say of positions.
+PX = "px"
+UNITS = frozenset({*MM_PER_UNIT, PX, "pixel", "pixels"})
 
 
 def guess_entry(
@@ -205,9 +208,11 @@ def _unit(names: Sequence[str], values: Array, path: Path, table: Table) -> tupl
         return unit, f"position_unit: the columns' names say {unit}"
     extent = np.ptp(values, axis=0).max()
     if any(words_of(name) & PIXELS for name in names):
-        return "mm", "position_unit: the names say pixels, which are no length: bring them to mm; please check"
+        return PX, "position_unit: the names say pixels, which stay pixels: no length is known of them; please check"
     unit = "m" if extent <= LARGEST_METRES else "mm"
-    return unit, f"position_unit: guessed from the width of the workspace, {extent:.3g}; please check"
+    beside = next((name for name in table.names if words_of(name) & PIXELS), None)
+    hint = "" if beside is None else f" ({PX} if these are pixels, as '{beside}' seems to be)"
+    return unit, f"position_unit: guessed from the width of the workspace, {extent:.3g}; please check{hint}"
 
 
 def _when(table: Table, kinds: Mapping[str, str | None]) -> tuple[dict[str, str], list[str]]:

@@ -19,6 +19,7 @@ from softkin.cli.store_address import store_address
 from softkin.cli.workflow_process import Ended
 from softkin.core.files import read_json, sha256_of
 from softkin.core.samples import VALIDATION
+from softkin.core.units import unit_of
 from softkin.reporting.page.provenance import commit, versions
 from softkin.tracking import nights
 from softkin.tracking.store import client_of
@@ -119,6 +120,7 @@ def _news(before: nights.Night, summary: Mapping[str, Any], rows: pd.DataFrame) 
         confidence_level=summary["confidence_level"],
         calibration_rows={name: data["rows"][VALIDATION] for name, data in summary["datasets"].items()},
         tolerances=Tolerances(**summary["configuration"].get("verdict", {})),
+        units={name: unit_of(data) for name, data in summary["datasets"].items()},
         seed=summary["seed"],
     )
     return changes_between(before.summary, summary), comparisons

@@ -106,7 +106,7 @@ def predict(
     to: To = None,
     as_json: AsJson = False,
 ) -> None:
-    """Positions in mm with intervals at commands; `outside` says where nothing is promised."""
+    """Positions (mm, else there is a column `unit`), intervals at commands; `outside`: nothing is promised there."""
     from softkin.cli.use_model import predicted_table, read_rows
 
     rows, _, unread = read_rows(commands, robot.names, measured=False)
@@ -124,7 +124,9 @@ def inverse(
     ],
     marker: Annotated[int, typer.Option(help="which marker, from 0; -1 is the last")] = -1,
     confidence: Annotated[float, typer.Option(help="confidence level of what is promised, in (0, 1)")] = 0.9,
-    tolerance: Annotated[float | None, typer.Option(help="mm; adds the probability to be no farther off")] = None,
+    tolerance: Annotated[
+        float | None, typer.Option(help="adds the probability to be no farther off (mm or own unit)")
+    ] = None,
     path: Annotated[bool, typer.Option("--path", help="targets are a path, each reached from the one before")] = False,
     out: Out = Form.CSV,
     to: To = None,

@@ -12,6 +12,7 @@ import pandas as pd
 
 from softkin.core.errors import DataError
 from softkin.core.samples import command_columns, informative_coordinates
+from softkin.core.units import MM, own_unit
 from softkin.data.readers.table_formats import open_table
 from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.calls import Names
@@ -35,11 +36,12 @@ class Checked:
     alarm_pose: int | None
     alarm_coordinates: tuple[str, ...]
     rate: float
+    unit: str = MM
 
     def sentences(self) -> list[str]:
         """The same in words."""
         lines = [f"{self.n_poses} poses, {self.n_outside} of them outside, where nothing is promised."]
-        lines += [f"Half of the markers are within {self.median_error_mm:.3g} mm of where the model says."]
+        lines += [f"Half of the markers are within {self.median_error_mm:.3g} {self.unit} of where the model says."]
         if self.share_of_small_p_values is None:
             return [*lines, "No pose is inside: nothing can be said of the robot."]
         lines += [
@@ -61,7 +63,8 @@ def predicted_table(
 ) -> pd.DataFrame:
     """Positions, bounds at the level and `outside`, a row for each command; with `joint` the bounds that hold the whole
     pose; of a robot that fails the probability of it, and whether it is so high that bounds hold failed poses, too.
-    Commands of a robot that remembers are taken as sent one after the other from rest.
+    Commands of a robot that remembers are taken as sent one after the other from rest. Of a robot that is not in mm the
+    last column is its `unit`.
     """
     inputs = State(robot).inputs(commands.to_numpy(dtype=np.float64))
     positions = np.asarray(robot.predict(inputs))
@@ -71,14 +74,14 @@ def predicted_table(
     parts = {"": positions, f"{prefix}lower_": bounds[..., 0], f"{prefix}upper_": bounds[..., 1]}
     frame = pd.DataFrame({f"{side}{name}": part[:, i] for i, name in enumerate(names) for side, part in parts.items()})
     frame = frame.assign(outside=np.asarray(robot.is_outside(inputs)))
-    if robot.failures is None:
-        return frame
-    may_fail = robot.failures.may_fail(commands.to_numpy(dtype=np.float64), [level])[0]
-    return frame.assign(failure_probability=robot.failure_probability(inputs), may_fail=may_fail)
+    if robot.failures is not None:
+        may_fail = robot.failures.may_fail(commands.to_numpy(dtype=np.float64), [level])[0]
+        frame = frame.assign(failure_probability=robot.failure_probability(inputs), may_fail=may_fail)
+    return frame.assign(**own_unit(robot.names.unit))
 
 
 def check_recording(robot: CalibratedModel, commands: pd.DataFrame, positions: pd.DataFrame, rate: float) -> Checked:
-    """What a recording, in the order in which it was made, says of the robot; positions in mm."""
+    """What a recording, in the order in which it was made, says of the robot; positions in its unit."""
     inputs, measured = State(robot).inputs(commands.to_numpy(dtype=np.float64)), positions.to_numpy()
     inside = ~np.asarray(robot.is_outside(inputs))
     joint = np.asarray(robot.p_values(inputs, measured)[1])[inside]
@@ -98,11 +101,12 @@ def check_recording(robot: CalibratedModel, commands: pd.DataFrame, positions: p
         alarm_pose=at,
         alarm_coordinates=() if alarm is None else alarm.coordinates,
         rate=rate,
+        unit=robot.names.unit,
     )
 
 
 def read_rows(path: Path, names: Names, *, measured: bool) -> tuple[pd.DataFrame, pd.DataFrame | None, list[str]]:
-    """Commands of a CSV or Parquet file, positions in mm where they were `measured`, and the columns not read.
+    """Commands of a CSV or Parquet file, positions where they were `measured`, and the columns not read.
 
     Raises:
         DataError: no such file, no table, or columns are missing.
@@ -120,7 +124,7 @@ def read_rows(path: Path, names: Names, *, measured: bool) -> tuple[pd.DataFrame
 
 
 def read_targets(path: Path, names: Names, marker: int) -> tuple[pd.DataFrame, list[str]]:
-    """Targets of a marker in mm of a CSV or Parquet file, columns m1_x, m1_y, m1_z, and the columns not read.
+    """Targets of a marker of a CSV or Parquet file, columns m1_x, m1_y, m1_z, and the columns not read.
 
     Raises:
         DataError, ConfigError: no such file, no table, columns are missing, or no such marker.
@@ -139,7 +143,8 @@ def command_table(
     `path` sent one after the other from rest.
     """
     asked = robot.command_path if path else robot.command_for
-    return pd.DataFrame(asked(targets, marker, level, tolerance=tolerance))
+    answers = pd.DataFrame(asked(targets, marker, level, tolerance=tolerance))
+    return answers.assign(**own_unit(robot.names.unit))
 
 
 def finite(value: Any) -> Any:

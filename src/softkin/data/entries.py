@@ -11,6 +11,7 @@ from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Any
 
 from softkin.core.addresses import problems_of_url
+from softkin.core.units import reason_against
 from softkin.data import own_files
 from softkin.data.reachability import SUFFIX
 from softkin.data.readers.columns import MAX_COMMANDS
@@ -55,6 +56,8 @@ def _problems(name: str, entry: Mapping[str, Any], sources: Mapping[str, Any]) -
         yield f"{key}.title: empty, or of several lines; write what tables are to call it"
     if entry["format"] == SIMULATED:
         yield f"{key}.format: '{SIMULATED}' is for stand-ins, which softkin makes itself; write another"
+    if reason := reason_against(entry["position_unit"]):
+        yield f"{key}.position_unit: {reason}"
     if "urls" in entry:
         yield from _problems_of_published(key, entry)
     for field in ("commands", "positions"):

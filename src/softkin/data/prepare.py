@@ -14,6 +14,7 @@ from softkin.core.errors import DataError, ResultError
 from softkin.core.files import file_sha256, write_json
 from softkin.core.job_records import recorded_sha256
 from softkin.core.samples import CONSTANT_RANGE_MM, TRAIN, Samples, coordinate_columns, informative_coordinates
+from softkin.core.units import MM, own_unit, per_unit, unit_in_tables
 from softkin.data.marker_order import RELABELLED, relabelled
 from softkin.data.own_files import in_words
 from softkin.data.readers import READERS, WITH_NAMES
@@ -29,7 +30,6 @@ logger = logging.getLogger("softkin")
 MIN_DISTINCT_COMMANDS = 5
 #: Positions that range over less or more than this are probably in another unit than the entry says.
 PLAUSIBLE_MM = (1.0, 10_000.0)
-MM_PER_UNIT = {"m": 1000.0, "cm": 10.0, "mm": 1.0, "in": 25.4}
 
 
 Cleaning = Callable[[Mapping[str, Samples]], tuple[dict[str, Samples], dict[str, int]]]
@@ -46,13 +46,13 @@ def prepare(
     max_rows: int | None = None,
     clean: Cleaning | None = None,
 ) -> None:
-    """Read the file of a dataset, check it, write its tidy table (mm) and a description of it.
+    """Read the file of a dataset, check it, write its tidy table (in mm or a unit of one's own) and a description.
 
     Parameters:
         raw: path of the retrieved file.
         dataset: name of the dataset.
         source: its entry in config/datasets.yaml.
-        table: path of the tidy table to write (Parquet, mm).
+        table: path of the tidy table to write (Parquet).
         description: path of the description to write (JSON).
         order_table: path of the table that says when rows were recorded, where the entry names one.
         max_rows: rows of each subset that are kept, the first ones, to try the workflow out; None keeps all.
@@ -70,7 +70,7 @@ def prepare(
     if order_table is not None:
         samples = with_order_table(samples, order_table, source)
     recorded = recording_description(samples)
-    samples = {subset: _in_mm(rows, max_rows, source["position_unit"]) for subset, rows in samples.items()}
+    samples = {subset: _in_unit_of_tables(rows, max_rows, source["position_unit"]) for subset, rows in samples.items()}
     if source.get("relabel"):
         samples, mended = relabelled(samples)
         counts |= {RELABELLED: mended}
@@ -80,7 +80,7 @@ def prepare(
         samples, removed = clean(samples)
         logger.info("cleaned train: %s", ", ".join(f"{count} {what}" for what, count in removed.items()))
     _check_left(samples, where)
-    _check_movement(samples[TRAIN], f"{where}, `train`")
+    _check_movement(samples[TRAIN], unit_in_tables(source["position_unit"]), f"{where}, `train`")
     _warn_of_implausible_range(samples[TRAIN], source, where)
     frame = to_table(samples)
     n_commands, n_markers = samples[TRAIN].commands.shape[1], samples[TRAIN].positions.shape[1] // 3
@@ -103,7 +103,7 @@ def _columns(columns: Mapping[str, Any], source: Mapping[str, Any], counts: Mapp
         return {}
     lost = {name for marker in counts.get(LOST_MARKERS, ()) for name in marker["columns"]}
     kept = [name for name in columns["positions"] if name not in lost]
-    return {"columns": {**columns, "positions": kept, "mm_per_unit": MM_PER_UNIT[source["position_unit"]]}}
+    return {"columns": {**columns, "positions": kept, "mm_per_unit": per_unit(source["position_unit"])}}
 
 
 def _description(samples: Mapping[str, Samples], source: Mapping[str, Any]) -> dict[str, Any]:
@@ -117,6 +117,7 @@ def _description(samples: Mapping[str, Samples], source: Mapping[str, Any]) -> d
         "rows": {subset: len(rows) for subset, rows in samples.items()},
         "content_sha256": {subset: content_hash(rows) for subset, rows in samples.items()},
         "constant_coordinates": _constant_coordinates(train),
+        **own_unit(unit_in_tables(source["position_unit"])),
     }
 
 
@@ -164,11 +165,11 @@ def _check_sizes(sizes: Mapping[str, int], source: Mapping[str, Any], where: str
             )
 
 
-def _check_movement(train: Samples, where: str) -> None:
+def _check_movement(train: Samples, unit: str, where: str) -> None:
     """A robot that stands still, or is told one thing alone, has no kinematics."""
     if not informative_coordinates(train.positions).any():
         raise DataError(
-            f"the positions never move: all range over at most {CONSTANT_RANGE_MM:g} mm",
+            f"the positions never move: all range over at most {CONSTANT_RANGE_MM:g} {unit}",
             where=where,
             fix="check `positions` and `position_unit` of the entry, or record poses that differ",
         )
@@ -181,12 +182,14 @@ def _check_movement(train: Samples, where: str) -> None:
         )
 
 
-def _in_mm(rows: Samples, max_rows: int | None, unit: str) -> Samples:
+def _in_unit_of_tables(rows: Samples, max_rows: int | None, unit: str) -> Samples:
     kept = rows.take(slice(max_rows))
-    return replace(kept, positions=kept.positions * MM_PER_UNIT[unit])
+    return replace(kept, positions=kept.positions * per_unit(unit))
 
 
 def _warn_of_implausible_range(train: Samples, source: Mapping[str, Any], where: str) -> None:
+    if unit_in_tables(source["position_unit"]) != MM:
+        return
     widest = np.ptp(train.positions, axis=0).max()
     if not PLAUSIBLE_MM[0] <= widest <= PLAUSIBLE_MM[1]:
         fix = f"unless the robot is of that size, correct `position_unit`, which is {source['position_unit']}"

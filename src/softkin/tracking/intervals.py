@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 
 from softkin.core.samples import TEST
+from softkin.core.units import own_unit, unit_of
 from softkin.tracking.figure_index import content_of, shown_in
 from softkin.tracking.records import CURRENT, YES, Record, find, put, retire
 from softkin.tracking.store import (
@@ -93,6 +94,7 @@ def _record(
             "table": table,
             "figures": content_of(figures),
             "leak": tags["leak"],
+            **own_unit(unit_of(tags)),
             **caution_content(campaign),
         },
         tags={
@@ -102,7 +104,7 @@ def _record(
             "model": model,
             "preset": preset,
             "interval_method": method,
-            NOTE: _note(rows, method) + caution_note(campaign),
+            NOTE: _note(rows, method, unit_of(tags)) + caution_note(campaign),
         },
         metrics=_metrics(rows),
         texts={"interval_metrics.csv": table},
@@ -122,10 +124,12 @@ def _metrics(rows: pd.DataFrame) -> dict[str, float]:
     return {name: value for name, value in values.items() if not np.isnan(value)}
 
 
-def _note(rows: pd.DataFrame, method: str) -> str:
+def _note(rows: pd.DataFrame, method: str, unit: str) -> str:
     if method == REGIONS:
         shown = rows[(rows["subset"] == TEST) & (rows["confidence_level"] == rows["confidence_level"].median())]
-        sizes = [f"{row.interval_method} covers {row.coverage:.1%}, {row.size_mm:.3g} mm" for row in shown.itertuples()]
+        sizes = [
+            f"{one.interval_method} covers {one.coverage:.1%}, {one.size_mm:.3g} {unit}" for one in shown.itertuples()
+        ]
         return f"Regions that hold all moving coordinates at once, on test. {'; '.join(sizes)}."
     shown = rows[(rows["coordinate"] == "mean_informative") & (rows["subset"] == TEST)]
     parts = [f"{row.confidence_level:.0%}: covers {row.coverage:.1%}" for row in shown.itertuples()]

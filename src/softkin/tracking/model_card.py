@@ -10,6 +10,7 @@ import pandas as pd
 from softkin.core.escaping import markdown_text
 from softkin.core.metrics.interval import fewest_commands
 from softkin.core.samples import EXTRAPOLATION, TEST
+from softkin.core.units import unit_of
 from softkin.data.audit.findings import counted
 from softkin.models.estimators.weighted_mean import composition
 from softkin.reporting.tables.numbers import assessed_text, number_text, share_text
@@ -70,7 +71,7 @@ def model_card(
         level: nominal level in (0, 1).
         caution: what the configuration says of its own numbers.
     """
-    origin, percent = description["origin"], share_text(level, 0)
+    origin, percent, unit = description["origin"], share_text(level, 0), unit_of(description)
     lines = [f"# {markdown_text(description['title'])}", ""]
     lines += [f"**{ORIGINS[origin]}**", ""] if origin in ORIGINS else []
     lines += [f"**CAUTION**: {markdown_text(caution)}", ""] if caution else []
@@ -81,7 +82,8 @@ def model_card(
         f"{commands} to the position of {markers}, with intervals by "
         f"{model.method.title}.",
         "",
-        f"| rows | mean marker error, mm | 95 % below, mm | RMSE, mm | {percent} intervals cover | mean width, mm | "
+        f"| rows | mean marker error, {unit} | 95 % below, {unit} | RMSE, {unit} | {percent} intervals cover | "
+        f"mean width, {unit} | "
         "joint intervals hold |",
         "| --- | --- | --- | --- | --- | --- | --- |",
     ]
@@ -104,7 +106,7 @@ def model_card(
     told = [(finding["severity"], f"{finding['sentence']} {finding['consequence']}") for finding in findings]
     lines += [f"- **{severity}**: {markdown_text(text)}" for severity, text in told]
     lines += [] if findings else ["The audit has no finding."]
-    return "\n".join([*lines, "", *_use(registered, description["n_commands"], level)])
+    return "\n".join([*lines, "", *_use(registered, description, level)])
 
 
 def _rows(description: Mapping[str, Any]) -> str:
@@ -113,9 +115,9 @@ def _rows(description: Mapping[str, Any]) -> str:
     return f"{rows} rows; origin: {description['origin']}; sha256 `{description['sha256']}`.{cut}"
 
 
-def _use(registered: str, n_commands: int, level: float) -> list[str]:
+def _use(registered: str, description: Mapping[str, Any], level: float) -> list[str]:
     """How to load it, in lines."""
-    columns = ", ".join(f'"u{i + 1}": [0.0]' for i in range(n_commands))
+    columns = ", ".join(f'"u{i + 1}": [0.0]' for i in range(description["n_commands"]))
     return [
         "## Use",
         "",
@@ -123,7 +125,8 @@ def _use(registered: str, n_commands: int, level: float) -> list[str]:
         "import mlflow, pandas",
         f'robot = mlflow.pyfunc.load_model("models:/{registered}@champion")',
         f"commands = pandas.DataFrame({{{columns}}})",
-        "# in mm: y_pred_m1_x, ..., lower_m1_x, ..., upper_m1_x, ..., joint_lower_m1_x, ..., joint_upper_m1_x, ...",
+        f"# in {unit_of(description)}: y_pred_m1_x, ..., lower_m1_x, ..., upper_m1_x, ..., joint_lower_m1_x, ..., "
+        "joint_upper_m1_x, ...",
         f'robot.predict(commands, params={{"confidence_level": {level:g}}})',
         "robot.unwrap_python_model().model  # the calibrated model: regions and p-values, too",
         "```",

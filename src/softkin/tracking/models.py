@@ -17,6 +17,7 @@ from softkin.core.escaping import markdown_text
 from softkin.core.files import read_json, sha256_of
 from softkin.core.runs import Run
 from softkin.core.samples import EXTRAPOLATION, TEST
+from softkin.core.units import own_unit, unit_of
 from softkin.tracking.figure_index import content_of, shown_in
 from softkin.tracking.records import CURRENT, YES, Record, find, put, retire, sweep, update
 from softkin.tracking.saved_view import NAME, TAG, saved_view
@@ -30,6 +31,7 @@ from softkin.tracking.store import (
     common_tags,
     experiment_of,
     read_description,
+    unit_note,
 )
 
 TIMINGS = ("fit_seconds", "predict_us_per_row")
@@ -74,7 +76,7 @@ def log_dataset(
     scores = pd.read_csv(point)
     experiment = experiment_of(client, described["dataset"])
     note = f"**{markdown_text(described['title'])}**, {described['origin']}. *Views*, at the top right, has *{NAME}*."
-    note += _findings_note(described) + caution_note(campaign)
+    note += unit_note(described) + _findings_note(described) + caution_note(campaign)
     for tag, value in {NOTE: note, "origin": described["origin"], TAG: saved_view()}.items():
         client.set_experiment_tag(experiment, tag, value)
     shown = shown_in(figures)
@@ -103,8 +105,14 @@ def _record(
     metrics = _metrics(model_run.scores)
     errors = model_run.scores.set_index("subset")["euclidean_mean_mm"]
     note = f"**{markdown_text(description['title'])}**, {model}, {preset} preset. "
-    note += f"Mean marker error: {errors[TEST]:.4g} mm on test, "
-    note += f"{errors[EXTRAPOLATION]:.4g} mm on extrapolation." + _findings_note(description) + caution_note(campaign)
+    unit = unit_of(description)
+    note += f"Mean marker error: {errors[TEST]:.4g} {unit} on test, "
+    note += (
+        f"{errors[EXTRAPOLATION]:.4g} {unit} on extrapolation."
+        + unit_note(description)
+        + _findings_note(description)
+        + caution_note(campaign)
+    )
     return Record(
         key=f"{campaign.name}/{description['dataset']}/{model}/{preset}",
         name=f"{description['dataset']} · {model} · {preset}",
@@ -116,6 +124,7 @@ def _record(
             "n_trials": study.get("n_trials"),
             "figures": content_of(model_run.figures),
             "findings": [finding["sentence"] for finding in description["findings"]],
+            **own_unit(unit_of(description)),
             **caution_content(campaign),
         },
         tags={

@@ -31,6 +31,7 @@ from softkin.core.addresses import SQLITE
 from softkin.core.errors import StoreError
 from softkin.core.escaping import markdown_text
 from softkin.core.files import read_json, replacing
+from softkin.core.units import MM, own_unit, unit_of
 from softkin.core.urls import without_credentials
 from softkin.data.audit.findings import LEAK
 from softkin.tracking.artifacts import artifacts_beside, move_locations
@@ -70,7 +71,14 @@ def common_tags(campaign: Campaign, description: Mapping[str, Any]) -> dict[str,
         "origin": description["origin"],
         "seed": str(campaign.seed),
         "leak": str(any(finding["severity"] == LEAK for finding in description["findings"])).lower(),
+        **own_unit(unit_of(description)),
     }
+
+
+def unit_note(description: Mapping[str, Any]) -> str:
+    """What a description in MLflow says of a unit that is not mm: metrics are named alike for all robots."""
+    unit = unit_of(description)
+    return "" if unit == MM else f" Lengths are in {unit}, those of metrics whose names end in `_mm`, too."
 
 
 def caution_note(campaign: Campaign) -> str:

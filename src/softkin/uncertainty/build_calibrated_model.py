@@ -39,7 +39,8 @@ def build_calibrated_model(
 
     Parameters:
         table: the tidy table, of which `train` and `validation` are read.
-        description: of the dataset: its name, and those of the robot's own columns where they are known.
+        description: of the dataset: its name, and those of the robot's own columns where they are known, and a unit
+            that is not mm.
         choice: the candidates of `choose` (CSV).
         specs: entries of the registry by model.
         methods: interval methods by name.
@@ -64,7 +65,7 @@ def build_calibrated_model(
     if best["outside"] == AUTO:
         archive = read_run_archive(shells)
         extrapolation = {"shells": shells_of(archive, train)[run], "norm": norm_of(archive)}
-    about = {"data": content_hash(train)} | {key: written[key] for key in ("columns",) if key in written}
+    about = {"data": content_hash(train)} | {key: written[key] for key in ("columns", "unit") if key in written}
     validation, _, promise = calibration_set(read_subset(table, VALIDATION))
     robot = calibrated(
         FittedModel(dataset, specs[run.model], run.preset, load_model(models[run]), train),

@@ -35,7 +35,7 @@ from softkin.uncertainty.suggestions import Suggestions
 
 @dataclass(frozen=True, repr=False)
 class CalibratedModel(Inverse, Suggestions):
-    """Positions, intervals, joint regions and p-values at any commands (n_rows, n_commands), in mm.
+    """Positions, intervals, joint regions and p-values at any commands (n_rows, n_commands), in mm or `names.unit`.
 
     Commands may be an array, lists, one row, or a DataFrame by the robot's own names, which DataFrames answer.
     A run of the workflow writes one per dataset: `softkin.load("results/finger/calibrated_model.joblib")`. Coverage is
@@ -85,7 +85,7 @@ class CalibratedModel(Inverse, Suggestions):
     recalibration: Recalibration | None = None
     #: What `train` tells of poses that fail; None: it shows none that commands foretell.
     failures: FailureClass | None = None
-    #: What else is known: `data`, the hash of `train`; `columns`, the robot's own names; `date`, of the file.
+    #: What else is known: `data`, the hash of `train`; `columns`, its own names; `unit`, if not mm; `date`.
     about: Mapping[str, Any] = field(default_factory=dict)
 
     def predict(self, commands: calls.Rows) -> Array | pd.DataFrame:
@@ -116,7 +116,8 @@ class CalibratedModel(Inverse, Suggestions):
             DataError: a number of poses that is not taken, poses in extrapolation, or poses that contradict each other.
         """
         errors, spread = labelled_errors(self, commands, positions), zero_spread(self.estimator)
-        found = recalibration(self._residuals(), errors, self._moving(), spread, self.dataset)
+        known = self._residuals(), errors, self._moving(), spread, self.dataset
+        found = recalibration(*known, self.names.unit)
         return replace(self, recalibration=found)
 
     def watch(self, rate: float = 0.01, session: int | None = None, seed: int = 0) -> Watch:
@@ -244,4 +245,4 @@ class CalibratedModel(Inverse, Suggestions):
     @cached_property
     def names(self) -> calls.Names:
         """What its columns are called."""
-        return calls.Names.of(self.train.commands.shape[1], self.known.truth.shape[1], self.about.get("columns"))
+        return calls.Names.of(self.train.commands.shape[1], self.known.truth.shape[1], self.about)

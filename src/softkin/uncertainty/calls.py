@@ -14,6 +14,7 @@ import pandas as pd
 
 from softkin.core.errors import ConfigError, DataError
 from softkin.core.samples import MAX_MAGNITUDE, Array, command_columns, coordinate_columns
+from softkin.core.units import MM, unit_of
 
 #: A table, array, list or one row.
 Rows = Any
@@ -25,7 +26,7 @@ KINDS = {"b": "truth values", "c": "complex numbers", "U": "text", "S": "text", 
 class Names:
     """What the columns of a robot are called: in its own file, where that is known, and in softkin's tables.
 
-    `scale` takes its own positions to mm; `dimensions` 2: its markers are planar, z is 0.
+    `scale` takes its own positions to `unit`, that of answers; `dimensions` 2: its markers are planar, z is 0.
     """
 
     n_commands: int
@@ -34,14 +35,14 @@ class Names:
     own_positions: Sequence[str] = ()
     scale: float = 1.0
     dimensions: int = 3
+    unit: str = MM
 
     @classmethod
-    def of(cls, n_commands: int, n_coordinates: int, columns: Mapping[str, Any] | None) -> Names:
-        """From `columns` of a dataset's description; None: its own names are not known."""
-        if columns is None:
-            return cls(n_commands, n_coordinates)
-        own = columns["commands"], columns["positions"]
-        return cls(n_commands, n_coordinates, *own, columns["mm_per_unit"], columns["dimensions"])
+    def of(cls, n_commands: int, n_coordinates: int, about: Mapping[str, Any]) -> Names:
+        """From what is known of a robot: `columns`, where its own names are, and `unit`, where it is not mm."""
+        columns = about.get("columns", {"commands": (), "positions": (), "mm_per_unit": 1.0, "dimensions": 3})
+        own = columns["commands"], columns["positions"], columns["mm_per_unit"], columns["dimensions"]
+        return cls(n_commands, n_coordinates, *own, unit_of(about))
 
     @property
     def coordinates(self) -> list[str]:
@@ -110,7 +111,7 @@ def position_rows(positions: Rows, names: Names, n_rows: int, where: str) -> Arr
         raise DataError(
             f"expected positions of shape ({n_rows}, {names.n_coordinates}), got {np.shape(positions)}",
             where=where,
-            fix=f"pass {names.n_coordinates} coordinates in mm for each of the {n_rows} commands",
+            fix=f"pass {names.n_coordinates} coordinates in {names.unit} for each of the {n_rows} commands",
         )
     check_finite(rows, positions, names.coordinates, where)
     return rows

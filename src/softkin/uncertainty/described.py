@@ -21,14 +21,15 @@ PROMISES = {
 
 def described(robot: Any) -> str:
     """Robot, model, method, error inside and outside, promise, data, date; what is not known has no line."""
-    known, about = robot.known, robot.about
+    known, about, unit = robot.known, robot.about, robot.names.unit
     n_commands, n_markers = robot.train.commands.shape[1], known.truth.shape[1] // 3
+    inside = _marker_error(known.truth - known.calibration)
     members, n_rows = composition(robot.estimator), len(robot.train.commands)
     lines = {
         "robot": f"{robot.dataset}, {_counted(n_commands, 'command')} to {_counted(n_markers, 'marker')}",
         "model": f"{robot.spec.title} ({robot.preset}){members}, fitted on {n_rows} rows",
         "intervals": f"{robot.method.title}, calibrated on {len(known.truth)} rows",
-        "inside": f"{_marker_error(known.truth - known.calibration):.3g} mm mean marker error on the calibration set",
+        "inside": f"{inside:.3g} {unit} mean marker error on the calibration set",
         "outside": "nothing is known of errors in extrapolation",
         "promise": PROMISES.get(robot.method.guarantee, f"none: {robot.method.guarantee}"),
         "data": f"sha256 {about['data'][:16]} of the rows of `train`" if "data" in about else None,
@@ -37,12 +38,12 @@ def described(robot: Any) -> str:
     if robot.shells:
         shell = robot.shells[-1]
         error = _marker_error(shell.truth - shell.predicted)
-        lines["outside"] = f"{error:.3g} mm mean marker error beyond the largest core of `train`"
+        lines["outside"] = f"{error:.3g} {unit} mean marker error beyond the largest core of `train`"
     return "\n".join(f"{name:<10} {text}" for name, text in lines.items() if text)
 
 
 def _marker_error(residuals: Array) -> float:
-    """Mean distance in mm of markers from where they are predicted; residuals (n_rows, n_coordinates)."""
+    """Mean distance of markers from where they are predicted; residuals (n_rows, n_coordinates)."""
     return float(np.linalg.norm(residuals.reshape(len(residuals), -1, 3), axis=2).mean())
 
 

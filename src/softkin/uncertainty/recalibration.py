@@ -16,6 +16,7 @@ from scipy.stats import norm, t
 
 from softkin.core.errors import DataError
 from softkin.core.samples import Array
+from softkin.core.units import MM
 from softkin.uncertainty.conformal import TINY, conformal_limits
 
 #: How many labelled poses are taken: below, nothing is known of the session; above, fit the model again.
@@ -36,6 +37,7 @@ class Recalibration:
     zero: Array
     stretch: Array
     n_poses: int
+    unit: str = MM
 
     def half_widths(self, calibration_errors: Array, confidence_levels: Sequence[float]) -> Array:
         """Half-widths (n_levels, 1, n_coordinates) in mm, from the errors (n_calibration, n_coordinates)."""
@@ -49,15 +51,20 @@ class Recalibration:
         zero = ", ".join(f"{value:+.2f}" for value in self.zero)
         stretch = ", ".join(f"{value:.2f}" for value in self.stretch)
         return (
-            f"Recalibrated on {self.n_poses} labelled poses of this session. The zero moved by {zero} mm; intervals "
-            f"are {stretch} times as wide as those of the calibration set. Coverage is promised for this session as "
-            "long as its errors are those of the calibration set up to a shift and a scale; recalibrate after the "
-            "robot is switched on again, or when the alarm goes off."
+            f"Recalibrated on {self.n_poses} labelled poses of this session. The zero moved by {zero} {self.unit}; "
+            f"intervals are {stretch} times as wide as those of the calibration set. Coverage is promised for this "
+            "session as long as its errors are those of the calibration set up to a shift and a scale; recalibrate "
+            "after the robot is switched on again, or when the alarm goes off."
         )
 
 
 def recalibration(
-    calibration_errors: Array, errors: Array, moving: NDArray[np.bool_], session_spread: Array | None, where: str
+    calibration_errors: Array,
+    errors: Array,
+    moving: NDArray[np.bool_],
+    session_spread: Array | None,
+    where: str,
+    unit: str = MM,
 ) -> Recalibration:
     """What labelled poses of a new session tell.
 
@@ -68,6 +75,7 @@ def recalibration(
         session_spread: standard deviation (n_coordinates,) in mm of zeros between known sessions; None where fewer than
             two are known: then the zero is not shrunk.
         where: the dataset, for messages.
+        unit: of positions, for messages and the card.
 
     Raises:
         DataError: too few or too many poses, or they contradict each other.
@@ -93,6 +101,6 @@ def recalibration(
             f"the labelled poses contradict each other: after a common shift they are still "
             f"{np.sqrt(scatter[coordinate] / (n_poses - 1)):.1f} times as far off as the calibration set",
             where=f"{where}, pose {farthest} is the farthest off",
-            fix="check that each position belongs to its command, is in mm, and that no marker was lost",
+            fix=f"check that each position belongs to its command, is in {unit}, and that no marker was lost",
         )
-    return Recalibration(shrink * errors.mean(axis=0), scale * np.sqrt(1 + shrink / n_poses), n_poses)
+    return Recalibration(shrink * errors.mean(axis=0), scale * np.sqrt(1 + shrink / n_poses), n_poses, unit)

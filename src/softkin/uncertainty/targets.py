@@ -25,7 +25,7 @@ class TargetNames(calls.Names):
         """From those of the whole robot."""
         first = marker * names.dimensions
         own = names.own_positions[first : first + names.dimensions]
-        return cls(names.n_commands, 3, names.own_commands, own, names.scale, names.dimensions, marker)
+        return cls(names.n_commands, 3, names.own_commands, own, names.scale, names.dimensions, names.unit, marker)
 
     @property
     def coordinates(self) -> list[str]:
@@ -63,7 +63,7 @@ def target_rows(targets: calls.Rows, names: calls.Names, marker: int, where: str
         raise DataError(
             f"expected targets of shape (n_rows, 3), got {np.shape(targets)}",
             where=where,
-            fix="pass x, y and z in mm of one marker in each row",
+            fix=f"pass x, y and z in {names.unit} of one marker in each row",
         )
     calls.check_finite(rows, targets, of_marker.coordinates, where)
     return rows

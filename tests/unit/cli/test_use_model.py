@@ -1,12 +1,13 @@
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from softkin.cli.use_model import check_recording, finite, predicted_table, read_rows
+from softkin.cli.use_model import check_recording, command_table, finite, predicted_table, read_rows
 from softkin.core.errors import DataError
 from tests.conftest import bending_arm
 from tests.unit.uncertainty.small_robot import small_robot
@@ -76,3 +77,16 @@ def test_columns_are_found_by_name_and_the_others_are_named(tmp_path: Path) -> N
 
 def test_json_gets_no_infinity() -> None:
     assert [finite(value) for value in (1.5, float("inf"), True)] == [1.5, None, True]
+
+
+def test_a_robot_in_pixels_says_so() -> None:
+    robot = replace(ROBOT, about={"unit": "px"})
+    rows = COMMANDS.set_axis(["u1", "u2"], axis=1)
+    table = predicted_table(robot, rows, 0.8)
+    assert (list(table.columns)[-1], set(table["unit"])) == ("unit", {"px"})
+    pd.testing.assert_frame_equal(table.drop(columns="unit"), predicted_table(ROBOT, COMMANDS, 0.8))
+    assert " px of where the model says" in check_recording(robot, rows, POSITIONS, 0.01).sentences()[1]
+    wished = command_table(robot, POSITIONS.iloc[:1], -1, 0.9, None, path=False)
+    assert wished["unit"].tolist() == ["px"]
+    assert " mm" not in repr(robot)
+    assert " px mean marker error" in repr(robot)

@@ -58,7 +58,6 @@ def test_the_shipped_configuration_is_good() -> None:
         (lambda c: c.update(when_unreachable="simulat"), ["did you mean 'simulate'?"]),
         (lambda c: c["sources"]["finger"]["standin"].update(robot="tendon_fingr"), ["did you mean 'tendon_finger'?"]),
         (lambda c: c["sources"]["finger"].update(sha256="abc"), ["sources.finger.sha256"]),
-        (lambda c: c["sources"]["finger"].update(position_unit="inch"), ["sources.finger.position_unit", "mm"]),
         (lambda c: c["sources"]["finger"].update(format="kin_json"), ["did you mean 'kinn_json'?"]),
         (lambda c: c["sources"]["finger"]["rows"].update(tests=3), ["sources.finger.rows", "did you mean 'test'?"]),
         (lambda c: c["sources"]["finger"].update(paper_params={"mpl": {}}), ["did you mean 'mlp'?"]),

@@ -68,3 +68,10 @@ def test_several_files_are_looked_for_one_by_one(tmp_path: Path, monkeypatch: py
     missing, unmatched = problems(["arm"], arm=entry | {"files": ["u_*.csv", "y.csv", "v_*.csv"]})
     assert missing.startswith("sources.arm.files.1: there is no file y.csv")
     assert unmatched.startswith("sources.arm.files.2: no file is named like 'v_*.csv'")
+
+
+@pytest.mark.parametrize(("unit", "says"), [("px", ""), ("inch", "did you mean 'in'?"), ("a b", "such as px")])
+def test_a_unit_is_a_length_or_a_word_of_ones_own(unit: str, says: str) -> None:
+    found = problems(["finger"], arm=OWN | {"position_unit": unit})
+    assert len(found) == bool(says)
+    assert all(line.startswith("sources.arm.position_unit: ") and says in line for line in found)

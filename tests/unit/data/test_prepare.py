@@ -16,7 +16,8 @@ from softkin.core.errors import DataError, ResultError
 from softkin.core.files import file_sha256, read_json
 from softkin.core.job_records import record_job
 from softkin.core.samples import SUBSETS, Samples
-from softkin.data.prepare import MM_PER_UNIT, prepare
+from softkin.core.units import MM_PER_UNIT
+from softkin.data.prepare import prepare
 from softkin.data.readers import table_file
 from softkin.data.readers.table_formats import open_table
 from softkin.data.table import read_subset
@@ -172,3 +173,12 @@ def test_case_29_relabel_puts_markers_in_order_in_every_subset_and_counts_them(t
         assert len({first < second for first, second in heights.tolist()}) == (1 if relabel else 2)
     assert counts[False] is None
     assert sum(counts[True].values()) == 60
+
+
+def test_pixels_stay_pixels_and_the_description_says_so(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    table, about = run(tmp_path, entry(position_unit="px"))
+    original = four_subsets(SIZES, n_commands=3, n_markers=2)
+    np.testing.assert_array_equal(read_subset(table, "test").positions, original["test"].positions)
+    assert about["unit"] == "px"
+    assert "positions range over" not in caplog.text
+    assert "unit" not in run(tmp_path, entry(position_unit="in"))[1]

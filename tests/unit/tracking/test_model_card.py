@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from typing import Any
 
@@ -110,3 +111,10 @@ def test_failures_that_commands_foretell_are_told() -> None:
     assert f"{found().n_failed} of 900 rows of `train` are gross errors that commands foretell" in text
     assert "Where that is above 10 %" in text
     assert "## Failures" not in card()
+
+
+def test_lengths_are_in_the_robots_own_unit() -> None:
+    text = card(unit="px")
+    assert "| rows | mean marker error, px | 95 % below, px | RMSE, px | 90 % intervals cover |" in text
+    assert "# in px: y_pred_m1_x" in text
+    assert not re.search(r"\bmm\b", text)

@@ -23,6 +23,7 @@ from softkin.core.samples import (
     coordinate_columns,
     informative_coordinates,
 )
+from softkin.core.units import in_unit, unit_of
 from softkin.data.audit import CHECKS
 from softkin.data.audit.findings import LEAK, Finding, worst_severity
 from softkin.data.audit.page import page
@@ -52,14 +53,14 @@ def audit(
     """Run every check on a tidy table, and write the data card and its readable page.
 
     Parameters:
-        table: path of the tidy table (Parquet, mm).
+        table: path of the tidy table (Parquet).
         dataset: name of the dataset.
         title: what tables and figures call it.
         position_unit: unit of positions in the dataset's own file, for the card.
         data_card: path of the card to write (JSON).
         readable: path of the page to write (Markdown).
-        description: of the dataset: what was left out or mended, and what its file calls its columns; None where
-            nothing is known of it.
+        description: of the dataset: what was left out or mended, what its file calls its columns, and a unit that is
+            not mm; None where nothing is known of it.
         base: what the dataset's entry declares of the robot's base.
 
     Raises:
@@ -68,19 +69,20 @@ def audit(
     samples = {subset: read_subset(table, subset) for subset in SUBSETS}
     results = {name: check(samples) for name, check in CHECKS.items()}
     about = description or {}
+    unit = unit_of(about)
     own = _own_names(samples[TRAIN], about.get("columns"))
-    findings = [_in_own_words(finding, own) for result in results.values() for finding in result.findings]
+    findings = [_in_own_words(finding, own, unit) for result in results.values() for finding in result.findings]
     card: dict[str, Any] = {
         "dataset": dataset,
         "title": title,
         "worst_severity": worst_severity(findings),
         "is_leaking": any(finding.severity == LEAK for finding in findings),
         "findings": [finding.as_dict() for finding in findings],
-        "unit": "mm",
+        "unit": unit,
         "unit_in_file": position_unit,
         "subsets": {subset: _description(rows) for subset, rows in samples.items()},
         **({"removed_from_train": None} | left_out(about)),
-        "base": _base(samples[TRAIN], base or {}),
+        "base": _base(samples[TRAIN], base or {}, unit),
         "checks": {name: dict(result.numbers) for name, result in results.items()},
     }
     write_json(data_card, card)
@@ -109,9 +111,9 @@ def _own_names(train: Samples, columns: Mapping[str, Any] | None) -> dict[str, s
     return dict([*commands, *zip(named, columns["positions"], strict=True)])
 
 
-def _in_own_words(finding: Finding, own: Mapping[str, str]) -> Finding:
-    """The finding with columns called as in the robot's own file."""
-    sentence = COLUMN.sub(lambda match: own.get(match.group(), match.group()), finding.sentence)
+def _in_own_words(finding: Finding, own: Mapping[str, str], unit: str) -> Finding:
+    """The finding with columns called as in the robot's own file, and lengths, which checks say in mm, in its unit."""
+    sentence = COLUMN.sub(lambda match: own.get(match.group(), match.group()), in_unit(finding.sentence, unit))
     return replace(finding, sentence=sentence)
 
 
@@ -124,7 +126,7 @@ def _description(rows: Samples) -> dict[str, Any]:
     }
 
 
-def _base(train: Samples, declared: Mapping[str, Any]) -> dict[str, Any]:
+def _base(train: Samples, declared: Mapping[str, Any], unit: str) -> dict[str, Any]:
     """The base of the robot, where curvature coordinates start: as declared, and estimated from `train` otherwise."""
     points = train.positions.reshape(len(train), -1, 3)
     if not informative_coordinates(train.positions).any():
@@ -138,7 +140,7 @@ def _base(train: Samples, declared: Mapping[str, Any]) -> dict[str, Any]:
     refused = {} if frame.refused_mm is None else {"refused_mm": frame.refused_mm}
     if refused:
         logger.warning(
-            "the base was estimated %.3g mm from the markers, out of reach, and is not used", *refused.values()
+            "the base was estimated %.3g %s from the markers, out of reach, and is not used", frame.refused_mm, unit
         )
     return refused | {
         "origin_mm": frame.origin.tolist(),

@@ -24,7 +24,7 @@ VERDICTS = {
 
 def page(card: Mapping[str, Any]) -> str:
     """The page of a data card, the dictionary that is written as JSON."""
-    checks = card["checks"]
+    checks, unit = card["checks"], card["unit"]
     parts = [
         f"# Data card: {markdown_text(card['title'])}",
         f"`{card['dataset']}`. {VERDICTS[card['worst_severity']]}",
@@ -36,17 +36,17 @@ def page(card: Mapping[str, Any]) -> str:
         *_not_read(card),
         *_relabelled(card.get("relabelled_rows")),
         "## Ranges",
-        f"Commands in the file's own unit, positions in mm (the file has {card['unit_in_file']}).",
+        f"Commands in the file's own unit, positions in {unit} (the file has {card['unit_in_file']}).",
         _ranges(card["subsets"]),
         "## Where the base stands",
-        _base(card["base"]),
+        _base(card["base"], unit),
         "## How near the other subsets come to train",
         _nearness(checks["near_copies"]),
         "## How far they lie from train",
         _shift(checks["extrapolation_support"], checks["subset_shift"]),
         "## How smooth the robot is",
-        _regularity(checks["gross_outliers"]),
-        *_in_time(checks["memory"]),
+        _regularity(checks["gross_outliers"], unit),
+        *_in_time(checks["memory"], unit),
     ]
     return "\n\n".join(parts) + "\n"
 
@@ -117,7 +117,7 @@ def _ranges(subsets: Mapping[str, Any]) -> str:
     return _table(["column", *SUBSETS], rows) + (f"\n\n{left} more columns are in the JSON file." if left else "")
 
 
-def _base(base: Mapping[str, Any]) -> str:
+def _base(base: Mapping[str, Any], unit: str) -> str:
     if "not_measured" in base:
         return f"Not measured: {base['not_measured']}."
     origin = ", ".join(
@@ -126,13 +126,14 @@ def _base(base: Mapping[str, Any]) -> str:
     )
     axis = ", ".join(f"{value:.4g}" for value in base["axis"])
     refused = (
-        f" It was estimated {base['refused_mm']:.3g} mm from the nearest marker, farther than the robot is long: that "
-        "is not used, and the base is as far away as the robot is long. Declare it, if curvature coordinates matter."
+        f" It was estimated {base['refused_mm']:.3g} {unit} from the nearest marker, farther than the robot is long: "
+        "that is not used, and the base is as far away as the robot is long. Declare it, if curvature coordinates "
+        "matter."
         if "refused_mm" in base
         else ""
     )
     return (
-        f"At {origin} mm; the straight robot leaves it along ({axis}), {base['axis_from']}. Models in "
+        f"At {origin} {unit}; the straight robot leaves it along ({axis}), {base['axis_from']}. Models in "
         "curvature coordinates are fitted to the arcs from there to the markers. `base` in the entry declares it."
         f"{refused}"
     )
@@ -182,17 +183,17 @@ def _shift(support: Mapping[str, Any], shift: Mapping[str, Any]) -> str:
     )
 
 
-def _regularity(outliers: Mapping[str, Any]) -> str:
+def _regularity(outliers: Mapping[str, Any], unit: str) -> str:
     if "not_measured" in outliers:
         return f"Not measured: {outliers['not_measured']}."
     return (
         f"A robust polynomial of degree {outliers['degree_of_fit']}, fitted to {outliers['rows_fitted']} rows, leaves "
-        f"a typical residual of {outliers['typical_residual_mm']:.2g} mm. It only finds outliers and is no point "
+        f"a typical residual of {outliers['typical_residual_mm']:.2g} {unit}. It only finds outliers and is no point "
         "model. All rows were compared with it."
     )
 
 
-def _in_time(memory: Mapping[str, Any]) -> list[str]:
+def _in_time(memory: Mapping[str, Any], unit: str) -> list[str]:
     """What the recording says of time; nothing where there is none."""
     if "not_measured" in memory:
         return []
@@ -210,7 +211,7 @@ def _in_time(memory: Mapping[str, Any]) -> list[str]:
         f"Residuals of a polynomial of degree {memory['degree_of_fit']} by commands alone, in the order of the "
         f"recording: {memory['rows_looked_at']} rows, {memory['permutations']} permutations.\n\n"
     )
-    return ["## How it lives in time", text + _table(["effect", "size, mm", "p-value"], rows)]
+    return ["## How it lives in time", text + _table(["effect", f"size, {unit}", "p-value"], rows)]
 
 
 def _table(header: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:

@@ -13,7 +13,7 @@ MAX_COMMANDS = 256
 #: From more on it is said what they cost.
 MANY_COMMANDS = 64
 _AXIS = re.compile(r"(?<![A-Za-z])[xyz](?![A-Za-z])|(?<![A-Z])[XYZ](?![A-Za-z])")
-_UNIT = re.compile(r"[\[(_ .](mm|cm|m|in)[\])]?$")
+_UNIT = re.compile(r"[\[(_ .](mm|cm|m|in|px|pixels?)[\])]?$")
 
 
 def axis_of(name: str) -> tuple[str, str] | None:
@@ -31,7 +31,7 @@ def axis_of(name: str) -> tuple[str, str] | None:
 
 
 def unit_of(name: str) -> str | None:
-    """The unit of length that a column's name ends with, as in `x_mm` or `x [mm]`; None where it has none."""
+    """The unit that a column's name ends with, as in `x_mm` or `x [mm]`; None where it has none."""
     unit = _UNIT.search(name)
     return unit.group(1) if unit else None
 

@@ -84,7 +84,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
         axis.set_title(f"{results.model_titles[str(model)]}, {preset}")
         axis.set_xlabel("distance to the nearest train command\n(standard deviations of a command)")
     logarithmic(axes[0][0].yaxis)
-    axes[0][0].set_ylabel("mean marker error (mm)")
+    axes[0][0].set_ylabel(f"mean marker error ({results.unit})")
     samples = [
         sample(subset, color=SUBSET_COLOURS[subset], marker=".", linestyle="") for subset in (TEST, EXTRAPOLATION)
     ]

@@ -46,7 +46,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
             width = 2.5 if subset == TRAIN else 1.2
             colour = SUBSET_COLOURS[str(subset)]
             axis.step(part["position_mm"], part["share"], where="post", color=colour, linewidth=width)
-        axis.set_xlabel(f"{coordinate} (mm)")
+        axis.set_xlabel(f"{coordinate} ({results.unit})")
     axes[0][0].set_ylabel("share of rows")
     samples = [sample(subset, color=colour, linewidth=1.8) for subset, colour in SUBSET_COLOURS.items()]
     legend_below(figure, samples, len(samples))

@@ -70,14 +70,14 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
         width = (rows["upper"] - rows["lower"]).mean()
         axes[0][column].set_title(
             f"{first['title']}\n{first['model']} {first['preset']}\n"
-            f"covers {rows['covered'].mean():.1%}\nmean width {width:.3g} mm",
+            f"covers {rows['covered'].mean():.1%}\nmean width {width:.3g} {results.unit}",
             fontsize=8,
         )
         axes[1][column].axhline(0.0, color=GREY, linewidth=0.4)
         axes[1][column].set_xlabel("row of test, sorted")
     coordinate, level = frame["coordinate"].iloc[0], frame["confidence_level"].iloc[0]
-    axes[0][0].set_ylabel(f"{coordinate} (mm)")
-    axes[1][0].set_ylabel("distance from the true\nposition (mm)")
+    axes[0][0].set_ylabel(f"{coordinate} ({results.unit})")
+    axes[1][0].set_ylabel(f"distance from the true\nposition ({results.unit})")
     legend_below(figure, axes[0][0].get_legend_handles_labels()[0], 3)
     heading(figure, results, f"{level:.0%} intervals of {coordinate}", rows_of=[TEST])
     return figure

@@ -68,7 +68,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
             if line == 1:
                 axis.set_xlabel("row, sorted by position")
             if column == 0:
-                axis.set_ylabel(f"{subset}\n{frame['coordinate'].iloc[0]} (mm)")
+                axis.set_ylabel(f"{subset}\n{frame['coordinate'].iloc[0]} ({results.unit})")
     samples = [sample("true position", color=BLACK, linewidth=1.2)]
     for is_paper in dict.fromkeys(preset == PAPER for preset in frame["preset"]):
         colour = LIGHT if is_paper else LOOKS[models[0]][0]

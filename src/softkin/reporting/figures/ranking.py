@@ -59,8 +59,8 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     logarithmic(axes.yaxis)
     axes.set(xlim=axes.get_xlim(), ylim=axes.get_ylim())
     axes.axline((1.0, 1.0), (10.0, 10.0), color=GREY, linewidth=0.8, linestyle="--")
-    axes.set_xlabel("mean marker error on test (mm)")
-    axes.set_ylabel("mean marker error on extrapolation (mm)")
+    axes.set_xlabel(f"mean marker error on test ({results.unit})")
+    axes.set_ylabel(f"mean marker error on extrapolation ({results.unit})")
     samples = model_samples(models, results)
     for preset in frame["preset"].unique():
         samples.append(sample(f"{preset} preset", marker="o", linestyle="", **_look(preset, GREY)))
@@ -85,7 +85,7 @@ FIGURE = FigureSpec(
     "Mean distance between true and predicted marker on test and on extrapolation, of every model with the paper's "
     "settings and with searched ones. The best run is the one nearest to the lower left corner. The height above the "
     "dashed line is the price of extrapolation: a run on it is as good there as in-domain. The ring marks the deployed "
-    "run, which was chosen on train alone. Errors below 1e-9 mm are drawn at 1e-9 mm.",
+    "run, which was chosen on train alone. Errors below 1e-9 are drawn at 1e-9.",
     frame,
     plot,
 )

@@ -57,7 +57,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     figure, axes = panels(2, 1, PAGE, 4.6, sharex=True)
     for [axis], (subset, rows) in zip(axes, frame.groupby("subset", sort=False), strict=True):
         _draw(axis, rows)
-        axis.set_ylabel(f"{subset}\npredicted - true (mm)")
+        axis.set_ylabel(f"{subset}\npredicted - true ({results.unit})")
     axes[1][0].set_xlabel("marker, counted from the base")
     samples = [sample(f"{axis} axis", color=colour, linewidth=6, alpha=0.7) for axis, colour in AXIS_COLOURS.items()]
     legend_below(figure, samples, 3)

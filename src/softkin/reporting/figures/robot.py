@@ -67,9 +67,9 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     heading(figure, results, f"typical poses of test, true and predicted{many}", [TEST], rows_of=[TEST])
     top = 0.9 - 0.17 * figure.get_suptitle().count("\n") / HEIGHT
     space: Any = figure.add_subplot(projection="3d", position=(-0.02, 0.42, 0.48, top - 0.39))
-    draw_poses(space, frame)
+    draw_poses(space, frame, results.unit)
     draw_shares(figure.add_subplot(position=(0.13, 0.16, 0.3, 0.155)), tips, frame)
-    draw_intervals(figure.add_subplot(position=(0.53, 0.16, 0.45, top - 0.16)), tips)
+    draw_intervals(figure.add_subplot(position=(0.53, 0.16, 0.45, top - 0.16)), tips, results.unit)
     colour, mark = LOOKS[first["model"]]
     look = {"linestyle": "", "markersize": 5}
     title = f"{results.model_titles[first['model']]}, {first['preset']}"

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 
 from softkin.core.samples import Array
+from softkin.core.units import MM
 from softkin.reporting.figures.sampling import drawn_rows
 from softkin.reporting.figures.style import BLACK, GREY, LEAST_MM, LIGHT, LOOKS, SKY, VERMILION
 from softkin.reporting.tables.numbers import number_text
@@ -18,7 +19,8 @@ if TYPE_CHECKING:
 
 AXES = "xyz"
 ENDS = ("lower", "upper")
-UNITS = {"mm": 1.0, "µm": 1e3, "nm": 1e6, "pm": 1e9}
+#: Of lengths, and how many of each a mm has.
+UNITS = {MM: 1.0, "µm": 1e3, "nm": 1e6, "pm": 1e9}
 #: The corners of a box, and its edges: two corners that differ in one coordinate.
 CORNERS = list(product((0, 1), repeat=3))
 EDGES = [(a, b) for a, b in combinations(CORNERS, 2) if sum(i != j for i, j in zip(a, b, strict=True)) == 1]
@@ -38,14 +40,18 @@ def missed(rows: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame({axis: rows[f"is_moving_{axis}"] & ~holds[axis] for axis in AXES})
 
 
-def unit_of(lengths_mm: Array) -> tuple[str, float]:
-    """The largest unit in which the largest finite length is at least 1, and how many of it a mm has."""
-    finite = lengths_mm[np.isfinite(lengths_mm)]
+def shown_unit(lengths: Array, unit: str) -> tuple[str, float]:
+    """The largest unit in which the largest finite length is at least 1, and how many of it a mm has; a unit
+    that is not mm has no smaller ones.
+    """
+    if unit != MM:
+        return unit, 1.0
+    finite = lengths[np.isfinite(lengths)]
     largest = float(np.abs(finite).max(initial=0.0))
     return next((item for item in UNITS.items() if largest * item[1] >= 1.0), ("pm", UNITS["pm"]))
 
 
-def draw_poses(axes: Any, frame: pd.DataFrame) -> None:
+def draw_poses(axes: Any, frame: pd.DataFrame, unit: str) -> None:
     """Draw true and predicted markers of the poses, their boxes where large enough, and all true positions in grey.
 
     The markers of a pose are joined along the robot; the pose of a single marker has a stem down to the floor.
@@ -70,15 +76,16 @@ def draw_poses(axes: Any, frame: pd.DataFrame) -> None:
     axes.set_zlim(floor, frame["true_z"].max())
     shape = np.maximum(extent, 0.4 * extent.max())
     axes.set_box_aspect(shape, zoom=0.95 if shape[2] == shape.max() else 1.12)
-    _label(axes)
+    _label(axes, unit)
 
 
-def draw_intervals(axes: Axes, tips: pd.DataFrame) -> None:
+def draw_intervals(axes: Axes, tips: pd.DataFrame, own_unit: str) -> None:
     """Draw a group of bars for each pose: the interval of each moving axis as seen from the predicted position."""
     rows = tips[tips["pose"] > 0].sort_values("pose")
     moving = [axis for axis in AXES if rows[f"is_moving_{axis}"].all()]
     columns = {name: rows[[f"{name}_{axis}" for axis in moving]].to_numpy() for name in (*ENDS, "true", "predicted")}
-    unit, factor = unit_of(np.concatenate([columns[name] - columns["predicted"] for name in ("true", "upper")]))
+    lengths = np.concatenate([columns[name] - columns["predicted"] for name in ("true", "upper")])
+    unit, factor = shown_unit(lengths, own_unit)
     true, *ends = (factor * (columns[name] - columns["predicted"]) for name in ("true", *ENDS))
     limit = _limit(true, np.stack(ends))
     bounds = np.clip(np.stack(ends, axis=-1), -limit, limit)
@@ -155,7 +162,7 @@ def _bar(axes: Axes, height: float, ends: Array, true: float, limit: float, *, i
 
 
 def _boxes(rows: pd.DataFrame, least: float) -> list[Array]:
-    """Lower and upper corner (2, 3) of each marker whose intervals are finite and somewhere wider than `least` mm."""
+    """Lower and upper corner (2, 3) of each marker whose intervals are finite and somewhere wider than `least`."""
     ends = [rows[[f"{name}_{axis}" for axis in AXES]].to_numpy() for name in ("lower", "upper")]
     corners = np.stack(ends, axis=1)
     return [box for box in corners if np.isfinite(box).all() and np.ptp(box, axis=0).max() >= least]
@@ -168,12 +175,12 @@ def _wires(corners: Array) -> Any:
     return Line3DCollection(lines, colors=SKY, linewidths=1.0)
 
 
-def _label(axes: Any) -> None:
+def _label(axes: Any, unit: str) -> None:
     from matplotlib.ticker import MaxNLocator
 
     for name in AXES:
         axis = getattr(axes, f"{name}axis")
         axis.set_major_locator(MaxNLocator(3))
         axis.set_tick_params(labelsize=6.5, pad={"x": -2, "y": 0, "z": 2}[name])
-        axis.set_label_text(f"{name} (mm)", fontsize=7.5)
+        axis.set_label_text(f"{name} ({unit})", fontsize=7.5)
         axis.labelpad = {"x": -5, "y": -2, "z": 0}[name]

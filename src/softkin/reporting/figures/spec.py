@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Generic, TypeVar
 
 from softkin.core.runs import Run
+from softkin.core.units import MM
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -20,7 +21,8 @@ class DatasetResults:
 
     `predictions` maps a run to its file in the order of the pool, `trials` a tuned model, `intervals` a method; `notes`
     maps a subset to what its reader must know, a leak for instance. `model_titles` are by model, `method_titles` and
-    `has_own_regressors` (quantile regressors in place of a point model) by method.
+    `has_own_regressors` (quantile regressors in place of a point model) by method. `unit` is that of positions, errors
+    and widths; columns of frames keep their names.
     """
 
     dataset: str
@@ -39,6 +41,7 @@ class DatasetResults:
     model_titles: Mapping[str, str]
     method_titles: Mapping[str, str]
     has_own_regressors: Mapping[str, bool]
+    unit: str = MM
 
 
 @dataclass(frozen=True, slots=True)

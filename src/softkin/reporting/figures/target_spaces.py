@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-ERRORS = {"rmse_mm": "RMSE on extrapolation (mm)", "mae_mm": "MAE on extrapolation (mm)"}
+ERRORS = {"rmse_mm": "RMSE on extrapolation", "mae_mm": "MAE on extrapolation"}
 #: An open mark is a model of positions, a full one a model of anything else.
 POSITIONS = "cartesian"
 
@@ -47,7 +47,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
             _draw(panel, frame[frame["model"] == model], error, height)
         panel.set_xscale("log")
         logarithmic(panel.xaxis, most_numbers=6)
-        panel.set_xlabel(label)
+        panel.set_xlabel(f"{label} ({results.unit})")
     axes[0].set_yticks(range(len(models)), [results.model_titles[model] for model in models])
     samples = [
         sample("fitted to positions", color=GREY, marker="o", markerfacecolor="white", linestyle=""),
@@ -76,7 +76,7 @@ FIGURE = FigureSpec(
     "Errors on extrapolation of every model fitted to positions (open marks) and to curvature coordinates (full "
     "marks), each with the best parameters of its study of preset outer. Where the full mark is left of the open one, "
     "curvature coordinates help this model to extrapolate. A ring marks the space that the study chose, on train "
-    "alone: a good choice is the left one of the two. Errors below 1e-9 mm are drawn at 1e-9 mm.",
+    "alone: a good choice is the left one of the two. Errors below 1e-9 are drawn at 1e-9.",
     frame,
     plot,
 )

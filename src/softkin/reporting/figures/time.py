@@ -98,8 +98,8 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     grid = figure.add_gridspec(len(coordinates) + 1, 2, height_ratios=[*[1.0] * len(coordinates), 1.45])
     for place, name in enumerate(coordinates):
         axes = figure.add_subplot(grid[place, :])
-        _draw_recording(axes, frame[frame["coordinate"] == name])
-        axes.set_ylabel(f"{name} (mm)")
+        _draw_recording(axes, frame[frame["coordinate"] == name], results.unit)
+        axes.set_ylabel(f"{name} ({results.unit})")
         if place < len(coordinates) - 1:
             axes.tick_params(labelbottom=False)
         else:
@@ -111,11 +111,11 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     title = f"{results.model_titles[first['model']]}, {first['preset']}, on rows it was not fitted to"
     reach = 1.1 * max(_extreme(rows, name) for name in ("static", "deployed"))
     for axes, name, text in zip(loops, ("static", "deployed"), ("a fit by commands alone", title), strict=True):
-        _draw_loop(axes, rows, name)
+        _draw_loop(axes, rows, name, results.unit)
         axes.set_ylim(-reach, reach)
         axes.set_title(text, fontsize=8)
         axes.set_xlabel(f"command {first['command_name']}")
-    loops[0].set_ylabel(f"measured - predicted\n{worst}, less its zero (mm)")
+    loops[0].set_ylabel(f"measured - predicted\n{worst}, less its zero ({results.unit})")
     samples = [
         sample(f"session {number}", color=_colour(number), marker="o", markersize=4, linewidth=2)
         for number in frame["session"].unique()
@@ -133,7 +133,7 @@ def _colour(session: int) -> str:
     return SESSION_COLOURS[(session - 1) % len(SESSION_COLOURS)]
 
 
-def _draw_recording(axes: Axes, rows: pd.DataFrame) -> None:
+def _draw_recording(axes: Axes, rows: pd.DataFrame, unit: str) -> None:
     """Residuals as dots, their running mean as a line, the zero of each session as a step."""
     axes.axhline(0.0, color=GREY, linewidth=0.6)
     for number, part in rows.groupby("session"):
@@ -146,7 +146,7 @@ def _draw_recording(axes: Axes, rows: pd.DataFrame) -> None:
         axes.plot(ends, [zero, zero], color="black", linewidth=1.2, linestyle=(0, (4, 2)))
         if ends[0] > rows["order"].min():
             axes.axvline(ends[0] - 0.5, color=GREY, linewidth=0.8)
-        text = f"zero {zero:+.1f} mm".replace("-", "\N{MINUS SIGN}")
+        text = f"zero {zero:+.1f} {unit}".replace("-", "\N{MINUS SIGN}")
         axes.text(
             float(np.mean(ends)), 0.97, text, transform=axes.get_xaxis_transform(), ha="center", va="top", fontsize=7.5,
             color=colour, bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.0},
@@ -182,7 +182,7 @@ def _extreme(rows: pd.DataFrame, name: str) -> float:
     return float((means["value"].abs() + 2 * means["spread"].fillna(0) / np.sqrt(means["n"])).max())
 
 
-def _draw_loop(axes: Axes, rows: pd.DataFrame, name: str) -> None:
+def _draw_loop(axes: Axes, rows: pd.DataFrame, name: str, unit: str) -> None:
     """Both branches with two standard errors, what lies between them filled; the mean gap is written."""
     axes.axhline(0.0, color=GREY, linewidth=0.6)
     means = _branches(rows, name)
@@ -190,7 +190,7 @@ def _draw_loop(axes: Axes, rows: pd.DataFrame, name: str) -> None:
     if len(wide.columns) == 2:
         axes.fill_between(wide.index, wide["below"], wide["above"], color=LIGHT, alpha=0.5, linewidth=0)
         gap = float((wide["below"] - wide["above"]).abs().mean())
-        axes.text(0.97, 0.95, f"gap {gap:.2f} mm", transform=axes.transAxes, ha="right", va="top", fontsize=9)
+        axes.text(0.97, 0.95, f"gap {gap:.2f} {unit}", transform=axes.transAxes, ha="right", va="top", fontsize=9)
     for side, colour, mark in (("below", UP, ">"), ("above", DOWN, "<")):
         of_side = means[means["comes_from"] == side]
         error = 2 * of_side["spread"] / np.sqrt(of_side["n"])

@@ -37,7 +37,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
         axes.step(*steps, where="post", color=colour, linewidth=1.5)
     logarithmic(axes.yaxis)
     axes.set_xlabel("trial")
-    axes.set_ylabel("cross-validated mean absolute error\non train (mm)")
+    axes.set_ylabel(f"cross-validated mean absolute error\non train ({results.unit})")
     samples = model_samples(frame["model"].unique(), results)
     figure.legend(handles=samples, loc="outside right center", frameon=False)
     heading(figure, results, "trials of the studies, and the best so far", [TRAIN])

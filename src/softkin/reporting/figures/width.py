@@ -77,10 +77,10 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     for axis, (title, rows) in zip(axes[0], groups, strict=True):
         _draw(axis, rows)
         axis.set_title(str(title), fontsize=8)
-        axis.set_xlabel("half width (mm)")
+        axis.set_xlabel(f"half width ({results.unit})")
     logarithmic(axes[0][0].xaxis, 4)
     logarithmic(axes[0][0].yaxis)
-    axes[0][0].set_ylabel("distance of the true position\nfrom the interval's middle (mm)")
+    axes[0][0].set_ylabel(f"distance of the true position\nfrom the interval's middle ({results.unit})")
     level = frame["confidence_level"].iloc[0]
     samples = [
         sample("covered", color=BLUE, marker=".", linestyle=""),

@@ -63,9 +63,9 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     places = [axis for row in axes for axis in row]
     for axis in places[len(pairs) :]:
         axis.set_axis_off()
-    drawn = [_draw(axis, frame, *pair) for axis, pair in zip(places, pairs, strict=False)]
+    drawn = [_draw(axis, frame, *pair, results.unit) for axis, pair in zip(places, pairs, strict=False)]
     first = frame.iloc[0]
-    label = f"mean marker error of\n{results.model_titles[first['model']]}, {first['preset']} (mm)"
+    label = f"mean marker error of\n{results.model_titles[first['model']]}, {first['preset']} ({results.unit})"
     bar = figure.colorbar(drawn[0], ax=places, label=label, shrink=0.9, extend="both")
     logarithmic(bar.ax.yaxis)
     dark = {"linestyle": "", "color": "#444444", "markersize": 4}
@@ -79,7 +79,7 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     return figure
 
 
-def _draw(axes: Axes, frame: pd.DataFrame, across: str, up: str) -> PathCollection:
+def _draw(axes: Axes, frame: pd.DataFrame, across: str, up: str, unit: str) -> PathCollection:
     from matplotlib.colors import LogNorm
 
     train = frame[frame["subset"] == TRAIN]
@@ -95,7 +95,7 @@ def _draw(axes: Axes, frame: pd.DataFrame, across: str, up: str) -> PathCollecti
         drawn = axes.scatter(rows[across], rows[up], c=rows[ERROR].clip(lower=LEAST_MM), norm=norm, **look)
     axes.locator_params(nbins=4)
     axes.set_xlabel(f"{across} (the data's unit)")
-    axes.set_ylabel("mean marker error (mm)" if up == ERROR else f"{up} (the data's unit)")
+    axes.set_ylabel(f"mean marker error ({unit})" if up == ERROR else f"{up} (the data's unit)")
     if up == ERROR:
         axes.set_yscale("log")
         logarithmic(axes.yaxis)

@@ -104,9 +104,9 @@ def plot(frame: pd.DataFrame, results: DatasetResults) -> Figure:
     for panel, ((model, preset), rows) in zip(axes[0], runs, strict=True):
         _draw(panel, rows)
         panel.set_title(f"{results.model_titles[str(model)]}, {preset}", loc="left")
-        panel.set_xlabel(f"{rows['axis_1'].iloc[0]} (mm)")
+        panel.set_xlabel(f"{rows['axis_1'].iloc[0]} ({results.unit})")
         panel.set_aspect("equal", adjustable="box")
-    axes[0][0].set_ylabel(f"{frame['axis_2'].iloc[0]} (mm)")
+    axes[0][0].set_ylabel(f"{frame['axis_2'].iloc[0]} ({results.unit})")
     samples = [
         sample("edge of train", color=BLACK, linewidth=0.8, linestyle="--"),
         sample("true", color=LIGHT, marker="o", markersize=4, linestyle=""),

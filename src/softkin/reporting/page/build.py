@@ -87,6 +87,7 @@ def build_report(
     page = _template().render(
         **what_was_run(config, Path(citation), sources),
         duration=duration(times),
+        unit=marks.unit,
         robots=robot_cards(frames, descriptions, titles, marks),
         verdicts=_verdicts(frames),
         data=data_grid(descriptions, sources, marks),

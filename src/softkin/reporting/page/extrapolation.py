@@ -37,7 +37,13 @@ def searched_grid(runs: pd.DataFrame, titles: Titles, marks: Marks, choices: Cho
         "extrapolation rows (that of cross-validation in brackets): " + ", ".join(correlations) + "."
     )
     columns = filtered_columns("Robot", "Model", "Preset", "Target space")
-    columns += number_columns("Cross-validation (mm)", "Outer shells (mm)", "MAE, test (mm)", "MAE, extrapolation (mm)")
+    columns += number_columns(
+        "Cross-validation ({unit})",
+        "Outer shells ({unit})",
+        "MAE, test ({unit})",
+        "MAE, extrapolation ({unit})",
+        unit=marks.unit,
+    )
     return Grid("searched", "Scores on train beside errors", sentence, columns, rows, "tables/searched_runs.csv")
 
 
@@ -66,7 +72,7 @@ def spaces_grid(spaces: pd.DataFrame, titles: Titles, marks: Marks) -> Grid:
     )
     columns = [*filtered_columns("Robot"), SUBSET, *filtered_columns("Model", "Target space of the study")]
     columns += number_columns(
-        *(f"{error}, {space} (mm)" for error in ("RMSE", "MAE") for space in SPACES), "Ratio of RMSE"
+        *(f"{error}, {space} ({marks.unit})" for error in ("RMSE", "MAE") for space in SPACES), "Ratio of RMSE"
     )
     title = "Curvature coordinates beside positions"
     return Grid("spaces", title, sentence, columns, rows, "tables/target_spaces.csv")
@@ -109,7 +115,9 @@ def extrapolation_grid(metrics: pd.DataFrame, titles: Titles, level: float, mark
         "intervals made of shells look at all new commands, though at no position, before any is made."
     )
     columns = [*filtered_columns("Robot"), SUBSET, *filtered_columns("Model", "Preset", "Method")]
-    columns += number_columns("Coverage", "Worst coordinate", "All at once", "Mean width (mm)", "Winkler (mm)")
+    columns += number_columns(
+        "Coverage", "Worst coordinate", "All at once", "Mean width ({unit})", "Winkler ({unit})", unit=marks.unit
+    )
     columns += [*number_columns("Ratio to the oracle's"), Column("Its band")]
     columns += [
         *number_columns("Without gross errors"),

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from urllib.parse import quote
 
 from softkin.core.escaping import csv_text
+from softkin.core.units import MM
 from softkin.reporting.page.marks import Mark, merged
 from softkin.reporting.tables.numbers import number_text, share_text
 
@@ -86,9 +87,9 @@ def share(value: float | None) -> Cell:
     return Cell(share_text(value))
 
 
-def number_columns(*titles: str) -> list[Column]:
-    """Columns of numbers."""
-    return [Column(title, is_number=True) for title in titles]
+def number_columns(*titles: str, unit: str = MM) -> list[Column]:
+    """Columns of numbers; a title may hold `{unit}`."""
+    return [Column(title.format(unit=unit), is_number=True) for title in titles]
 
 
 def filtered_columns(*titles: str) -> list[Column]:

@@ -71,10 +71,11 @@ def robot_cards(
         errors = None
         if "selection" in frames:
             selected = deployed(frames["selection"]).set_index("dataset").loc[dataset]
-            errors = _errors(frames["point_metrics"], dataset, selected, titles)
-        interval = _interval(best.loc[dataset], scores, titles, reasons.get(dataset, ""))
+            errors = _errors(frames["point_metrics"], dataset, selected, titles, marks.units[dataset])
+        unit = marks.units[dataset]
+        interval = _interval(best.loc[dataset], scores, titles, reasons.get(dataset, ""), unit)
         if dataset in joint.index:
-            interval = replace(interval, facts=[*interval.facts, *_whole_poses(joint.loc[dataset])])
+            interval = replace(interval, facts=[*interval.facts, *_whole_poses(joint.loc[dataset], unit)])
         if "conditional_coverage" in frames:
             conditional = frames["conditional_coverage"]
             found = _where_it_holds_least(conditional[conditional["dataset"] == dataset])
@@ -83,13 +84,13 @@ def robot_cards(
     return cards
 
 
-def _errors(scores: pd.DataFrame, dataset: str, selected: pd.Series, titles: Titles) -> Errors:
+def _errors(scores: pd.DataFrame, dataset: str, selected: pd.Series, titles: Titles, unit: str) -> Errors:
     run = (scores["dataset"] == dataset) & (scores["model"] == selected["model"])
     by_subset = scores[run & (scores["preset"] == selected["preset"])].set_index("subset")
     test, extrapolation = by_subset.loc[TEST], by_subset.loc[EXTRAPOLATION]
     facts = [
-        ("95 % of test cases below", length_text(test["euclidean_p95_mm"])),
-        ("mean error, extrapolation", length_text(extrapolation["euclidean_mean_mm"])),
+        ("95 % of test cases below", length_text(test["euclidean_p95_mm"], unit)),
+        ("mean error, extrapolation", length_text(extrapolation["euclidean_mean_mm"], unit)),
     ]
     if isinstance(selected["runner_up"], str) and selected["runner_up"]:
         ratio = number_text(selected["runner_up_ratio"])
@@ -97,7 +98,7 @@ def _errors(scores: pd.DataFrame, dataset: str, selected: pd.Series, titles: Tit
     is_skewed = test["euclidean_mean_mm"] > test["euclidean_p95_mm"]
     remark = "A few gross errors set the mean, which exceeds the 95th percentile." if is_skewed else ""
     model = titles.run(selected["model"], selected["preset"])
-    return Errors(model, (DEPLOYED,), length_text(test["euclidean_mean_mm"]), facts, remark)
+    return Errors(model, (DEPLOYED,), length_text(test["euclidean_mean_mm"], unit), facts, remark)
 
 
 def _beyond(best: pd.Series) -> str:
@@ -106,28 +107,28 @@ def _beyond(best: pd.Series) -> str:
     return text if best["extrapolation_assessable"] else f"{text}: {best['extrapolation_commands']} distinct commands"
 
 
-def _interval(best: pd.Series, scores: pd.DataFrame, titles: Titles, reason: str) -> Interval:
+def _interval(best: pd.Series, scores: pd.DataFrame, titles: Titles, reason: str, unit: str) -> Interval:
     key = ["dataset", "model", "preset", "interval_method", "confidence_level"]
     by_subset = scores[(scores[key] == best[key].to_numpy()).all(axis=1)].set_index("subset")
     level = share_text(best["confidence_level"], 0)
     facts = [
-        (f"mean width of a {level} interval", length_text(best["test_mean_width_mm"])),
+        (f"mean width of a {level} interval", length_text(best["test_mean_width_mm"], unit)),
         ("coverage, test", share_text(best["test_coverage"])),
         ("coordinates covered as guaranteed", str(by_subset.loc[TEST, "as_guaranteed"])),
         ("coverage, extrapolation (no guarantee)", _beyond(best)),
-        ("mean width, extrapolation", length_text(best["extrapolation_mean_width_mm"])),
+        ("mean width, extrapolation", length_text(best["extrapolation_mean_width_mm"], unit)),
     ]
     method = f"{titles.methods[best['interval_method']]} around {titles.run(best['model'], best['preset'])}"
     return Interval(method, marks_of_candidate(best["chosen"], best["deployed"]), facts, reason)
 
 
-def _whole_poses(joint: pd.Series) -> Facts:
+def _whole_poses(joint: pd.Series, unit: str) -> Facts:
     """What is said of joint intervals, beside how often single ones hold a whole pose."""
     return [
         ("whole poses within all intervals, test", share_text(joint["single_test"])),
         (f"whole poses within joint intervals ({joint['shape']}), test", share_text(joint["test"])),
         ("the same, extrapolation (no guarantee)", assessed_text(joint["extrapolation"], joint["assessable"])),
-        ("side of a cube of a joint interval's volume", length_text(joint["size_mm"])),
+        ("side of a cube of a joint interval's volume", length_text(joint["size_mm"], unit)),
     ]
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from softkin.core.samples import SUBSETS, VALIDATION
+from softkin.core.units import MM, heading, unit_of
 from softkin.data.audit.findings import LEAK, NEIGHBOURS_IN_TIME
 
 
@@ -19,6 +20,7 @@ class Mark:
 
 
 CUT = "rows were left out (max_rows_per_subset): not comparable with the paper, nor with a complete run"
+OWN_UNIT = "positions, errors and widths of this robot are in {unit}, also below names that end in _mm"
 STANDIN = "a stand-in, simulated by softkin in place of the published data: its numbers say nothing of the real robot"
 
 
@@ -28,7 +30,7 @@ class Marks:
     A finding of severity `leak` in a data card marks its subsets as a `leak`, one of neighbours in time that stand in
     `train` as `optimistic`; `notes` of an entry in
     config/datasets.yaml stand with it, or are a `caution` on their subset; `is_cut` and the origin of dataset.json mark
-    every subset.
+    every subset; so does a unit that is not mm.
     """
 
     def __init__(
@@ -53,7 +55,12 @@ class Marks:
                 ]
                 marks += [Mark("rows left out", f"{dataset}: {CUT}.")] * bool(description["is_cut"])
                 marks += [Mark("stand-in", f"{dataset}: {STANDIN}.")] * (description.get("origin") == "stand-in")
+                unit = unit_of(description)
+                marks += [Mark(f"in {unit}", f"{dataset}: {OWN_UNIT.format(unit=unit)}.")] * (unit != MM)
                 self._marks[dataset, subset] = marks
+        self.units = {dataset: unit_of(description) for dataset, description in descriptions.items()}
+        #: What heads columns of lengths: 'mm', or all units of the datasets.
+        self.unit = heading(self.units.values())
 
     def of(self, dataset: str, subset: str) -> tuple[Mark, ...]:
         """The marks of a number that was measured on `subset`."""

@@ -103,7 +103,7 @@ def data_grid(
         )
     sentence = (
         "What the models were fitted to: commands drive a robot, markers are the points on it whose positions are "
-        "predicted, in mm. The hash identifies the content of the file."
+        f"predicted, in {marks.unit}. The hash identifies the content of the file."
     )
     columns = [Column("Robot"), Column("Title", is_wide=True), *number_columns("Commands", "Markers")]
     columns += number_columns("Train rows", "Validation", "Test", "Extrapolation")

@@ -39,6 +39,6 @@ def recorded_grid(recorded: pd.DataFrame, titles: Titles, marks: Marks) -> Grid:
     )
     shown = [
         *filtered_columns("Robot", "Split", "Rows", "Run", "Memory", "Interval", "Labelled poses"),
-        *number_columns("RMSE, mm", "MAE, mm", "Coverage", "Width, mm", "Winkler, mm"),
+        *number_columns("RMSE, {unit}", "MAE, {unit}", "Coverage", "Width, {unit}", "Winkler, {unit}", unit=marks.unit),
     ]
     return Grid("recorded", "In time", sentence, shown, rows, "tables/recorded.csv")

@@ -44,7 +44,9 @@ def point_grid(scores: pd.DataFrame, titles: Titles, marks: Marks, choices: Choi
         "constant ones included, as in the paper."
     )
     columns = [*filtered_columns("Robot"), SUBSET, *filtered_columns("Model", "Preset")]
-    columns += number_columns("Mean error (mm)", "95 % below (mm)", "RMSE (mm)", "MAE (mm)", "R2", "MAPE (%)")
+    columns += number_columns(
+        "Mean error ({unit})", "95 % below ({unit})", "RMSE ({unit})", "MAE ({unit})", "R2", "MAPE (%)", unit=marks.unit
+    )
     columns += number_columns("Fit (s)", "Predict (µs a row)")
     return Grid("points", "Errors of every model", sentence, columns, rows, "tables/point_metrics.csv")
 
@@ -83,7 +85,14 @@ def interval_grid(metrics: pd.DataFrame, titles: Titles, level: float, marks: Ma
     columns += [Column("Level", filtered=True, preset=share_text(level, 0)), *number_columns("Coverage")]
     columns += [
         Column("As guaranteed"),
-        *number_columns("Joint coverage", "Mean width (mm)", "Winkler (mm)", "Without gross errors (mm)", "Size (mm)"),
+        *number_columns(
+            "Joint coverage",
+            "Mean width ({unit})",
+            "Winkler ({unit})",
+            "Without gross errors ({unit})",
+            "Size ({unit})",
+            unit=marks.unit,
+        ),
     ]
     columns += filtered_columns("Guarantee")
     return Grid("intervals", "Intervals of every method", sentence, columns, rows, "tables/interval_metrics.csv")
@@ -110,18 +119,25 @@ def choice_grid(choice: pd.DataFrame, titles: Titles, marks: Marks, singles: Sin
         f"The {share_text(choice['confidence_level'].iloc[0], 0)} intervals that each robot could have. The chosen one "
         "has the lowest typical Winkler score (the geometric mean over rows, which a handful of failed rows cannot "
         "turn) when cross-validated on validation rows, the deployed one is the best around the "
-        "deployed model. Their scores on test are in mm and as a ratio to the paper's recipe. In extrapolation, where "
-        "nothing is guaranteed, another method may take over; a coverage there is not assessable where distinct "
-        "commands are too few to tell it."
+        f"deployed model. Their scores on test are in {marks.unit} and as a ratio to the paper's recipe. In "
+        "extrapolation, where nothing is guaranteed, another method may take over; a coverage there is not assessable "
+        "where distinct commands are too few to tell it."
     )
     columns = [
         *filtered_columns("Robot"),
         Column("Method"),
         Column("Around"),
-        *number_columns("Typical Winkler, cross-validated (mm)", "Its mean (mm)", "Mean without gross errors (mm)"),
+        *number_columns(
+            "Typical Winkler, cross-validated ({unit})",
+            "Its mean ({unit})",
+            "Mean without gross errors ({unit})",
+            unit=marks.unit,
+        ),
     ]
-    columns += number_columns("Coverage, test", "Mean width, test (mm)", "Winkler, test (mm)")
-    columns += number_columns("Without gross errors (mm)", "Ratio to the paper's", "Ratio without gross errors")
+    columns += number_columns("Coverage, test", "Mean width, test ({unit})", "Winkler, test ({unit})", unit=marks.unit)
+    columns += number_columns(
+        "Without gross errors ({unit})", "Ratio to the paper's", "Ratio without gross errors", unit=marks.unit
+    )
     columns += [Column("In extrapolation"), *number_columns("Coverage there")]
     reasons = [f"{dataset}: {why}" for dataset, why in why_another_is_deployed(choice, titles).items()]
     file = "tables/interval_choice.csv"

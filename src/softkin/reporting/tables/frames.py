@@ -18,6 +18,7 @@ from softkin.reporting.tables.leaks import marked
 from softkin.reporting.tables.paper_layout import SUBSET_TITLES
 from softkin.reporting.tables.published import compare, compare_columns, read_published
 from softkin.reporting.tables.published_intervals import compare_intervals, read_published_intervals
+from softkin.reporting.units import with_units
 from softkin.training.selection import runs_with_errors, searched_runs, selection
 
 CUT = "Not comparable with the paper: max_rows_per_subset left rows out."
@@ -84,7 +85,7 @@ def read_tables(
 ) -> Tables:
     """The tables of a run. There is no published_columns without tuned models, and no selection and searched_runs where
     nothing was searched; recorded where a dataset is recorded, learning_curve where there are any. Without a published
-    dataset `claims` has no rows.
+    dataset `claims` has no rows. Where a dataset is not in mm all have a column `unit`.
 
     Parameters:
         datasets: dataset -> files, in the order of the configuration.
@@ -131,7 +132,7 @@ def read_tables(
         frames["learning_curve"] = marked(_concatenated(learning), leaks)
     printed = {name: pd.read_csv(getattr(published, name)) for name in ("subsets", "approaches", "improvements")}
     frames["claims"] = claims(frames, printed, descriptions, cards)
-    return Tables(frames, sources, descriptions, cards, notes, printed["subsets"])
+    return Tables(with_units(frames, descriptions), sources, descriptions, cards, notes, printed["subsets"])
 
 
 def _left_out(files: Sequence[DatasetFiles]) -> pd.DataFrame:

@@ -16,6 +16,7 @@ from softkin.reporting.tables.interval_choice import chosen_intervals, deployed_
 from softkin.reporting.tables.joint_intervals import joint_scores
 from softkin.reporting.tables.numbers import NOT_ASSESSABLE, assessed_text, number_text, share_text
 from softkin.reporting.tables.single_rows import Hanging, Number, hanging, of_runs
+from softkin.reporting.units import heading_of, told, units_in
 from softkin.uncertainty.intervals.spec import AUTO
 
 WIDTH = 90
@@ -51,7 +52,10 @@ def headline(
         left_out: as in left_out.csv; None: no number is marked that hangs on a single row.
     """
     width = 2 + max(18, *map(len, choice["dataset"]))
-    lines = ["", "softkin: forward kinematics, mean error of a marker position (mm)", ""]
+    unit, units = heading_of(choice), units_in(choice)
+    lines = ["", f"softkin: forward kinematics, mean error of a marker position ({unit})", ""]
+    if others := told(units):
+        lines += [*(f"  {dataset}: all lengths are {said}." for dataset, said in others.items()), ""]
     if caution:
         lines += [
             *textwrap.wrap(f"CAUTION: {one_line(caution)}", WIDTH, initial_indent="  ", subsequent_indent="  "),
@@ -96,7 +100,7 @@ def _intervals(choice: pd.DataFrame, width: int) -> list[str]:
     deployed = deployed_intervals(choice)
     level = share_text(deployed["confidence_level"].iloc[0], 0)
     lines = ["", f"  {level} intervals of the calibrated models, mean over moving coordinates", ""]
-    columns = f"{'around':<16}{'method':<14}{'width (mm)':>13}{'test':>9}{'extrapolation':>15}"
+    columns = f"{'around':<16}{'method':<14}{_sized('width', choice):>13}{'test':>9}{'extrapolation':>15}"
     lines.append(f"  {'dataset':<{width}}{columns}")
     for row in deployed.itertuples():
         run, size = f"{row.model} {row.preset}", number_text(row.test_mean_width_mm)
@@ -104,6 +108,12 @@ def _intervals(choice: pd.DataFrame, width: int) -> list[str]:
         shares = f"{share_text(row.test_coverage):>9}{beyond:>15}"
         lines.append(f"  {row.dataset:<{width}}{run:<16}{row.interval_method:<14}{size:>13}{shares}")
     return [*lines, "", *_claims(choice, deployed), *_not_assessable(deployed), *_not_deployed(choice), ""]
+
+
+def _sized(what: str, choice: pd.DataFrame) -> str:
+    """What a column holds, with its unit where all datasets have one: 'width (mm)'."""
+    units = set(units_in(choice).values())
+    return f"{what} ({units.pop()})" if len(units) == 1 else what
 
 
 def _not_assessable(deployed: pd.DataFrame) -> list[str]:
@@ -124,7 +134,8 @@ def _whole_poses(scores: pd.DataFrame, choice: pd.DataFrame, width: int) -> list
         return []
     level = share_text(choice["confidence_level"].iloc[0], 0)
     lines = [f"  {level} joint intervals of the calibrated models, which hold all moving coordinates at once", ""]
-    lines.append(f"  {'dataset':<{width}}{'shape':<16}{'':<14}{'size (mm)':>13}{'test':>9}{'extrapolation':>15}")
+    size = _sized("size", choice)
+    lines.append(f"  {'dataset':<{width}}{'shape':<16}{'':<14}{size:>13}{'test':>9}{'extrapolation':>15}")
     for row in scores.itertuples():
         shares = f"{share_text(row.test):>9}{assessed_text(row.extrapolation, row.assessable):>15}"
         lines.append(f"  {row.Index:<{width}}{row.shape:<16}{'':<14}{number_text(row.size_mm):>13}{shares}")

@@ -12,12 +12,13 @@ from softkin.reporting.tables.interval_choice import chosen_intervals, deployed_
 from softkin.reporting.tables.numbers import number_text, share_text
 from softkin.reporting.tables.paper_layout import PaperTable
 from softkin.reporting.titles import Titles
+from softkin.reporting.units import heading_of, told, units_in
 from softkin.uncertainty.intervals.spec import MARGINAL
 from softkin.uncertainty.promise import BY_BLOCK
 
 #: Guarantees among whose methods the best is bold.
 GUARANTEED = (MARGINAL, BY_BLOCK)
-HEADER = ("Method", "Around", "Guarantee", "Coverage (%)", "Mean width (mm)", "Winkler score (mm)")
+HEADER = ("Method", "Around", "Guarantee", "Coverage (%)", "Mean width ({unit})", "Winkler score ({unit})")
 RUN = ["model", "preset"]
 
 
@@ -33,7 +34,7 @@ def interval_table(
 
     The runs are that of the chosen interval, that of the deployed one, and the paper's. The chosen and the deployed
     interval are named as such, and the lowest Winkler score among methods with a guarantee is bold. A dataset whose
-    scores leak (column `leak`) says so in its heading.
+    scores leak (column `leak`) says so in its heading, as does one whose unit is not that of the others.
 
     Parameters:
         metrics: as in interval_metrics.csv.
@@ -45,6 +46,7 @@ def interval_table(
     rows: list[list[str]] = []
     bold: set[tuple[int, int]] = set()
     groups = []
+    unit, units = heading_of(choice), told(units_in(choice))
     for dataset, title in dataset_titles.items():
         chosen = chosen_intervals(choice).loc[dataset]
         deployed = deployed_intervals(choice).loc[dataset]
@@ -60,7 +62,8 @@ def interval_table(
             around = titles.run(row["model"], row["preset"])
             numbers = (number_text(row["mean_width_mm"]), number_text(row["winkler_mm"]))
             rows.append([", ".join(words), around, row["guarantee"], f"{100 * row['coverage']:.1f}", *numbers])
-        groups.append((f"{title} (LEAK)" if shown["leak"].any() else title, len(shown)))
+        said = [units[name] for name in (dataset,) if name in units] + ["LEAK"] * bool(shown["leak"].any())
+        groups.append((f"{title} ({', '.join(said)})" if said else title, len(shown)))
     remark = (
         "Test rows, averaged over the moving coordinates; nominal level "
         f"{share_text(float(choice['confidence_level'].iloc[0]), 0)}. Chosen: the lowest typical Winkler score, "
@@ -68,7 +71,8 @@ def interval_table(
         "score on test among the methods with a marginal guarantee."
     )
     reasons = [f"{dataset_titles[d]}: {why}" for d, why in why_another_is_deployed(choice, titles).items()]
-    return PaperTable("Prediction intervals, as measured", HEADER, rows, bold, groups, [remark, *reasons, *notes])
+    header = [name.format(unit=unit) for name in HEADER]
+    return PaperTable("Prediction intervals, as measured", header, rows, bold, groups, [remark, *reasons, *notes])
 
 
 def _shown(metrics: pd.DataFrame, chosen: pd.Series, deployed: pd.Series, methods: Sequence[str]) -> pd.DataFrame:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+from softkin.core.units import MM
+
 #: Stands where there is no number.
 NOTHING = "–"
 #: Stands where there are too few distinct commands to tell a coverage.
@@ -46,6 +48,8 @@ def band_text(low: float, high: float) -> str:
     return NOTHING if math.isnan(low) or math.isnan(high) else f"{number_text(low)} to {number_text(high)}"
 
 
-def length_text(value: float) -> str:
-    """A length (mm) outside a table: '0.509 mm', 'below a nanometre'."""
-    return "below a nanometre" if 0 <= value < NANOMETRE else f"{number_text(value)} mm"
+def length_text(value: float, unit: str = MM) -> str:
+    """A length outside a table: '0.509 mm', 'below a nanometre', '3.2 px'."""
+    if unit == MM and 0 <= value < NANOMETRE:
+        return "below a nanometre"
+    return f"{number_text(value)} {unit}"

@@ -10,7 +10,9 @@ import pandas as pd
 from softkin.core.escaping import latex_text, markdown_text
 from softkin.core.metrics.point import LARGER_IS_BETTER
 from softkin.core.samples import EXTRAPOLATION, TEST
+from softkin.core.units import MM
 from softkin.reporting.tables.numbers import NOTHING, number_text
+from softkin.reporting.units import units_in
 
 HEADINGS = {"rmse_mm": "RMSE (mm)", "mae_mm": "MAE (mm)", "r2": "R2", "mape_percent": "MAPE (%)"}
 #: As the paper heads its tables.
@@ -105,7 +107,9 @@ def comparison_table(
         notes: sentences below the table.
     """
     sources = [*(["printed"] if number else []), *presets_of(point)]
-    header = ["Method", *(f"{heading} {source}" for heading in HEADINGS.values() for source in sources)]
+    unit = units_in(point).get(dataset, MM)
+    headings = [heading.replace("(mm)", f"({unit})") for heading in HEADINGS.values()]
+    header = ["Method", *(f"{heading} {source}" for heading in headings for source in sources)]
     rows: list[list[str]] = []
     bold: set[tuple[int, int]] = set()
     groups = []

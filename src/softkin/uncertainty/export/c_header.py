@@ -33,7 +33,7 @@ FACE = """
 /* Levels at which intervals are stored. */
 static const double @p_levels[{n_levels}] = {{{levels}}};
 
-/* In mm; `outside`: nothing is promised of this command. */
+/* In {unit}; `outside`: nothing is promised of this command. */
 typedef struct {{
     double position[{n_coordinates}], lower[{n_coordinates}], upper[{n_coordinates}];
     int outside;
@@ -98,6 +98,7 @@ def c_header(robot: Any, confidence_levels: Sequence[float] = LEVELS, *, name: s
         "n_inputs": n_inputs,
         "n_levels": len(numbers["levels"]),
         "levels": ", ".join(map(number, numbers["levels"])),
+        "unit": _plain(numbers["unit"]),
     }
     # Tables and functions are named while the texts are made.
     inputs, at = inputs_text(numbers, tables, n_inputs), _at(numbers, tables, n_coordinates)
@@ -118,9 +119,15 @@ def c_header(robot: Any, confidence_levels: Sequence[float] = LEVELS, *, name: s
 def _head(numbers: Node) -> str:
     text = (
         f"{numbers['dataset']}: {numbers['model']}; written by softkin {__version__}.\n"
-        f"   Commands: {', '.join(numbers['commands'])}. Coordinates in mm: {', '.join(numbers['coordinates'])}.\n"
+        f"   Commands: {', '.join(numbers['commands'])}. "
+        f"Coordinates in {numbers['unit']}: {', '.join(numbers['coordinates'])}.\n"
         "   @p_predict(command, level, &answer) is 0 where all is well; link with -lm."
     )
+    return _plain(text)
+
+
+def _plain(text: str) -> str:
+    """A text that ends no comment."""
     return text.encode("ascii", "replace").decode().replace("*/", "* /")
 
 

@@ -19,8 +19,8 @@ LARGEST = 1e100
 class Model:
     """Positions, intervals at the stored levels and `outside`, of commands (n_rows, n_commands) or one (n_commands,).
 
-    Answers are in mm. A robot that remembers is taken to be sent each command from rest, in a session never seen;
-    `start` follows it through time.
+    Answers are in mm, or the unit of its `numbers`. A robot that remembers is taken to be sent each command from rest,
+    in a session never seen; `start` follows it through time.
     """
 
     def __init__(self, numbers: Node) -> None:
@@ -80,7 +80,7 @@ class Loop:
             self.plays = np.tile(self.previous, (len(self.memory["halves"]), 1))
 
     def step(self, command: Any) -> tuple[Values, Values, Values]:
-        """Send one command (n_commands,): position, lower and upper bound, each (n_coordinates,) in mm."""
+        """Send one command (n_commands,): position, lower and upper bound, each (n_coordinates,)."""
         inputs = self.model._checked(command)
         if len(inputs) != 1:
             raise ValueError(f"{len(inputs)} commands, where one is sent at a time")

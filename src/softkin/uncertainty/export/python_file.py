@@ -28,8 +28,8 @@ MODULES: tuple[ModuleType, ...] = (kernels, evaluate, spaces, plain_robot, face)
 HEAD = '''"""{dataset}: {model}; written by softkin {version}. It needs numpy alone.
 
     from {name} import model
-    model.predict(commands)           # positions in mm, a row per command: columns {commands}
-    model.intervals(commands, 0.9)    # lower and upper bounds in mm, at the levels {levels}
+    model.predict(commands)           # positions in {unit}, a row per command: columns {commands}
+    model.intervals(commands, 0.9)    # lower and upper bounds in {unit}, at the levels {levels}
     model.is_outside(commands)        # where nothing is promised
     loop = model.start()              # a control loop: position, lower, upper = loop.step(command)
 
@@ -59,6 +59,7 @@ def python_file(robot: Any, confidence_levels: Sequence[float] = LEVELS, *, name
     """
     numbers = exported_numbers(robot, confidence_levels, most=MOST_NUMBERS)
     shown = {key: ", ".join(map(str, numbers[key])) for key in ("commands", "levels", "coordinates")}
+    shown["unit"] = numbers["unit"]
     head = HEAD.format(
         dataset=_plain(robot.dataset),
         model=numbers["model"],

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -136,3 +137,13 @@ def test_relabelled_rows_stand_in_card_and_page(robot: dict[str, Samples], tmp_p
     card, readable = audited(robot, tmp_path, description={"relabelled_rows": counts})
     assert card["relabelled_rows"] == counts
     assert "`relabel: true`, rows: 7 of train, 0 of validation, 1 of test, 2 of extrapolation." in readable
+
+
+def test_a_card_of_pixels_says_pixels(robot: dict[str, Samples], changed: Replace, tmp_path: Path) -> None:
+    samples = changed("train", [300], positions=robot["train"].positions[5])
+    card, readable = audited(samples, tmp_path, description={"unit": "px"})
+    (far,) = [finding["sentence"] for finding in card["findings"] if finding["code"] == "stuck_poses"]
+    assert " px from where the rows around them" in far
+    assert card["unit"] == "px"
+    assert "positions in px" in readable
+    assert not re.search(r"\bmm\b", readable)

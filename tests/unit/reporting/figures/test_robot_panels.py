@@ -8,7 +8,7 @@ import pytest
 from matplotlib.axes import Axes
 from matplotlib.colors import to_rgba
 
-from softkin.reporting.figures.robot_panels import draw_intervals, draw_poses, draw_shares, missed, unit_of
+from softkin.reporting.figures.robot_panels import draw_intervals, draw_poses, draw_shares, missed, shown_unit
 from softkin.reporting.figures.style import BLACK, VERMILION, blank, panels
 from tests.unit.reporting.figures.drawn import bars, marks, xs
 
@@ -31,7 +31,7 @@ def markers(n_markers: int = 1, n_rows: int = 4) -> pd.DataFrame:
 
 def drawn_intervals(rows: pd.DataFrame) -> Axes:
     _, [[axes]] = panels(1, 1, 4.0, 4.0)
-    draw_intervals(axes, rows)
+    draw_intervals(axes, rows, "mm")
     return axes
 
 
@@ -88,7 +88,9 @@ def test_infinite_intervals_fill_the_panel_and_cover() -> None:
 
 @pytest.mark.parametrize(("factor", "unit"), [(1.0, "mm"), (1e-3, "µm"), (1e-6, "nm"), (1e-12, "pm")])
 def test_lengths_are_in_a_fitting_unit(factor: float, unit: str) -> None:
-    assert unit_of(factor * np.array([3.0, 0.1, np.inf, np.nan]))[0] == unit
+    lengths = factor * np.array([3.0, 0.1, np.inf, np.nan])
+    assert shown_unit(lengths, "mm")[0] == unit
+    assert shown_unit(lengths, "px") == ("px", 1.0)
     rows = markers()
     for axis in "xyz":
         for name in ("true", "lower", "upper"):
@@ -114,7 +116,7 @@ def test_shares_are_of_all_rows_by_axis_at_once_and_over_all_markers() -> None:
 def test_a_single_marker_has_a_stem_and_several_are_joined() -> None:
     for n_markers, n_stems in ((1, 4), (3, 0)):
         axes = blank(4.0, 4.0).add_subplot(projection="3d")
-        draw_poses(axes, markers(n_markers))
+        draw_poses(axes, markers(n_markers), "mm")
         assert len([line for line in axes.lines if line.get_marker() == "x"]) == n_stems
         joined = [line for line in axes.lines if line.get_color() == BLACK]
         assert {len(line.get_data_3d()[0]) for line in joined} == {n_markers}
@@ -130,6 +132,6 @@ def test_boxes_are_drawn_where_they_can_be_seen() -> None:
                     rows[f"{end}_{axis}"] - rows[f"predicted_{axis}"]
                 )
         axes = blank(4.0, 4.0).add_subplot(projection="3d")
-        draw_poses(axes, rows)
+        draw_poses(axes, rows, "mm")
         assert len(axes.collections) == n_boxes
         assert to_rgba(BLACK) not in [tuple(box.get_edgecolor()[0]) for box in axes.collections]

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from softkin.reporting.page.grid import number_columns
 from softkin.reporting.page.marks import Mark, Marks, kinds, merged
 
 LEAK = {"severity": "leak", "subsets": ["test", "validation"], "sentence": "Copies.", "consequence": "No test."}
@@ -50,3 +51,14 @@ def test_neighbours_in_time_make_a_subset_optimistic() -> None:
     finding = WARNING | {"code": "neighbours_in_time", "sentence": "optimistic: beside train.", "consequence": "See."}
     assert marks(finding).of("arm", "test") == (Mark("optimistic", "arm, test: optimistic: beside train. See."),)
     assert marks(finding).of("arm", "train") == ()
+
+
+def test_a_unit_that_is_not_mm_is_a_mark_and_heads_columns() -> None:
+    about = {"is_cut": False, "origin": "own"}
+    sources: dict[str, dict[str, Any]] = {"arm": {}, "cam": {}}
+    cards: dict[str, dict[str, Any]] = {name: {"findings": []} for name in sources}
+    of = Marks(sources, {"arm": about, "cam": about | {"unit": "px"}}, cards)
+    assert (of.unit, of.units) == ("mm or px", {"arm": "mm", "cam": "px"})
+    assert kinds(of.of("cam", "test")) == ["in px"]
+    assert of.of("arm", "test") == ()
+    assert number_columns("Width ({unit})", "R2", unit=of.unit)[0].title == "Width (mm or px)"

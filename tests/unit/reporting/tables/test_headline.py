@@ -159,3 +159,15 @@ def test_whole_poses_have_lines_of_their_own() -> None:
     assert "Intervals of single coordinates hold a whole pose of test in 62 % of cases." in text
     assert max(map(len, text.splitlines())) <= 90
     assert "whole poses" not in headline(SELECTED, scores(0.5, 1.25), CHOICE, [], metrics=pd.DataFrame(rows[2:]))
+
+
+def test_lengths_are_in_the_robots_own_unit() -> None:
+    text = headline(SELECTED, scores(0.5, 1.25), CHOICE.assign(unit="px"), [])
+    assert "mean error of a marker position (px)" in text
+    assert "width (px)" in text
+    assert "mm" not in text.replace("commands", "")
+    both = pd.concat([CHOICE.assign(unit="px"), CHOICE.assign(dataset="arm_2", unit="mm")])
+    text = headline(None, scores(0.5, 1.25), both, [])
+    assert "mean error of a marker position (mm or px)" in text
+    assert "arm: all lengths are in px." in text
+    assert "width (" not in text
