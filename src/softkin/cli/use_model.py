@@ -17,6 +17,8 @@ from softkin.data.readers.table_formats import open_table
 from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.calls import Names
 from softkin.uncertainty.control_loop import State
+from softkin.uncertainty.intervals.spec import NO_GUARANTEE
+from softkin.uncertainty.promise import worth_of_p_values
 from softkin.uncertainty.targets import TargetNames, marker_of
 
 #: Share of false alarms that p-values are counted at.
@@ -26,7 +28,8 @@ ALPHA = 0.1
 @dataclass(frozen=True, slots=True)
 class Checked:
     """What a recording says of a robot: poses in all and outside, the share of those inside with a p-value of at most
-    `ALPHA`, and the pose (from 1, in the file) and coordinates of the alarm, if it went off.
+    `ALPHA`, and the pose (from 1, in the file) and coordinates of the alarm, if it went off; what both are worth where
+    rows are not exchangeable.
     """
 
     n_poses: int
@@ -37,6 +40,8 @@ class Checked:
     alarm_coordinates: tuple[str, ...]
     rate: float
     unit: str = MM
+    worth_of_p_values: str = ""
+    worth_of_alarm: str = ""
 
     def sentences(self) -> list[str]:
         """The same in words."""
@@ -44,17 +49,21 @@ class Checked:
         lines += [f"Half of the markers are within {self.median_error_mm:.3g} {self.unit} of where the model says."]
         if self.share_of_small_p_values is None:
             return [*lines, "No pose is inside: nothing can be said of the robot."]
-        lines += [
-            f"Inside, {self.share_of_small_p_values:.0%} of the poses have a p-value of at most {ALPHA:.0%}; of a "
-            f"robot that is where the model says, about {ALPHA:.0%} have."
-        ]
+        promised = "at most" if self.worth_of_p_values else "about"
+        expected = f"; of a robot that is where the model says, {promised} {ALPHA:.0%} have"
+        small = f"Inside, {self.share_of_small_p_values:.0%} of the poses have a p-value of at most {ALPHA:.0%}"
+        lines += [f"{small}{'' if NO_GUARANTEE in self.worth_of_p_values else expected}."]
+        lines += [said for said in (self.worth_of_p_values, self.worth_of_alarm) if said]
         if self.alarm_pose is None:
             return [*lines, f"No alarm, at a rate of {self.rate:g} false alarms: the robot is where the model says."]
         where = ", ".join(self.alarm_coordinates) or "no coordinate by itself"
+        found = "the robot is no longer where the model says"
+        if self.worth_of_alarm:
+            found = f"{found}, or only this stretch of time is unlike those that the model was calibrated on"
         return [
             *lines,
-            f"ALARM at pose {self.alarm_pose} ({where}), at a rate of {self.rate:g} false alarms: the robot is no "
-            "longer where the model says. Recalibrate it on a few labelled poses, or identify it again.",
+            f"ALARM at pose {self.alarm_pose} ({where}), at a rate of {self.rate:g} false alarms: {found}. Recalibrate "
+            "it on a few labelled poses, or identify it again.",
         ]
 
 
@@ -102,6 +111,8 @@ def check_recording(robot: CalibratedModel, commands: pd.DataFrame, positions: p
         alarm_coordinates=() if alarm is None else alarm.coordinates,
         rate=rate,
         unit=robot.names.unit,
+        worth_of_p_values=worth_of_p_values(robot.joint.promise),
+        worth_of_alarm=watch.worth,
     )
 
 

@@ -2,7 +2,8 @@
 
 While poses are exchangeable with the calibration set, p-values are independent and uniform, and by Ville's inequality
 the martingale reaches 1 / rate with a probability of at most `rate`, however long one watches (Vovk, Gammerman and
-Shafer 2005, section 7.1). Signed errors make it see a shifted zero at once. Bets are those of crepes.
+Shafer 2005, section 7.1). Where only blocks of poses are exchangeable that does not hold, and the watch says so. Signed
+errors make it see a shifted zero at once. Bets are those of crepes.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import numpy as np
 
 from softkin.core.samples import Array
 from softkin.uncertainty.conformal import p_values
+from softkin.uncertainty.promise import Promise, worth_of_alarm
 
 #: Share of the capital that changes its bet at each pose.
 JUMP = 0.01
@@ -41,6 +43,8 @@ class Watch:
         seed: of the smoothing of p-values.
         error: error(command, position), measured minus predicted position (n_coordinates,), asked once for each pose in
             turn; None where errors are given.
+        promise: of the calibration set, where blocks are exchangeable and not rows: `worth` then says that the rate is
+            no guarantee; None: it is one.
     """
 
     def __init__(
@@ -50,12 +54,14 @@ class Watch:
         rate: float = 0.01,
         seed: int = 0,
         error: Callable[[Any, Any], Array] | None = None,
+        promise: Promise | None = None,
     ) -> None:
         from crepes.martingales import StepBettingFunction
 
         self.errors, self.names, self.rate, self.error = calibration_errors, tuple(names), rate, error
         self.p_values = np.empty((0, len(self.names)))
         self.alarm: Alarm | None = None
+        self.worth = worth_of_alarm(promise)
         self._rng = np.random.default_rng(seed)
         self._bets = StepBettingFunction()
         n_bets = self._bets.apply(np.array([0.5])).shape[1]

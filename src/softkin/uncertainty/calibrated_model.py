@@ -28,7 +28,7 @@ from softkin.uncertainty.joint_intervals import JointAnswers, JointIntervals
 from softkin.uncertainty.joint_region import JointRegion
 from softkin.uncertainty.new_session import labelled_errors, zero_spread
 from softkin.uncertainty.prepared import Prepared
-from softkin.uncertainty.promise import asked_levels
+from softkin.uncertainty.promise import asked_levels, own_rows
 from softkin.uncertainty.recalibration import Recalibration, recalibration
 from softkin.uncertainty.suggestions import Suggestions
 
@@ -121,11 +121,12 @@ class CalibratedModel(Inverse, Suggestions):
         return replace(self, recalibration=found)
 
     def watch(self, rate: float = 0.01, session: int | None = None, seed: int = 0) -> Watch:
-        """An alarm fed pose by pose, from rest: `watch.see(command, position)`."""
+        """An alarm fed pose by pose, from rest: `watch.see(command, position)`; `watch.worth`: is its rate promised?"""
         rate = calls.level_of(rate, self.dataset, "rate of false alarms")
         moving = self._moving()
         moves = [name for name, moves in zip(self.names.coordinates, moving, strict=True) if moves]
-        return Watch(self._residuals()[:, moving], moves, rate, seed, error_of(State(self, session), moving))
+        error = error_of(State(self, session), moving)
+        return Watch(self._residuals()[:, moving], moves, rate, seed, error, self.joint.promise)
 
     def intervals(
         self, commands: calls.Rows, confidence_levels: float | Sequence[float] | Array, predicted: Array | None = None
@@ -184,15 +185,17 @@ class CalibratedModel(Inverse, Suggestions):
         and of the whole pose (n_rows,). In a DataFrame, positions by the robot's own names are in its own unit.
 
         The paper's Eq. 4; with `rng` smoothed. Calling a pose anomalous when its p-value is at most alpha raises a
-        false alarm in at most a share alpha of cases, where rows are exchangeable; of blocks, too, each row counts.
+        false alarm in at most a share alpha of cases. Where blocks are exchangeable and not rows, p-values count blocks
+        and that holds for a pose of a new block; with too few for 90 % they count rows, and nothing is promised.
         """
         inputs = self._checked(commands)
         calls.check_generator(rng, self.dataset)
         calls.check_same_rows(commands, positions, self.dataset)
         measured = calls.position_rows(positions, self.names, len(inputs), self.dataset)
         known, new = self._residuals(), measured - self._predicted(inputs)
-        single = p_values(np.abs(known), np.abs(new), rng=rng)
-        joint = p_values(self._scores(known), self._scores(new), rng=rng)
+        own = own_rows(self.joint.promise)
+        single = p_values(np.abs(known), np.abs(new), rng=rng, own=own)
+        joint = p_values(self._scores(known), self._scores(new), rng=rng, own=own)
         return like(commands, single, self.names.coordinates), like(commands, joint, "pose")
 
     def __repr__(self) -> str:

@@ -80,12 +80,17 @@ def two_sided_rank(n_calibration: int, confidence_level: float) -> int | None:
     return None if side is None else 2 * side - (n_calibration + 1)
 
 
-def p_values(calibration_scores: Array, scores: Array, *, rng: np.random.Generator | None = None) -> Array:
+def p_values(
+    calibration_scores: Array, scores: Array, *, rng: np.random.Generator | None = None, own: int = 1
+) -> Array:
     """Conformal p-values (n_rows, ...) of nonconformity `scores` (n_rows, ...), given `calibration_scores` (n, ...).
 
     The paper's Eq. 4: (number of calibration scores that are at least as large + 1) / (n + 1). With `rng` smoothed:
     scores that are equal count with a uniform random share, so that p-values are exactly uniform (Vovk, Gammerman
     and Shafer 2005, section 2.2).
+
+    Of blocks of `own` rows each, (number + own) / (n + own): the block of a new row is not known and counts in full, as
+    in the ranks of `Promise` (Lee, Barber and Willett 2023); its share is not smoothed, and p-values are not too small.
     """
     ordered = np.sort(calibration_scores, axis=0)
     n = len(ordered)
@@ -93,10 +98,11 @@ def p_values(calibration_scores: Array, scores: Array, *, rng: np.random.Generat
     pairs = list(zip(flat.T, flat_scores.T, strict=True))
     at_least = n - np.column_stack([np.searchsorted(known, new, side="left") for known, new in pairs])
     if rng is None:
-        return np.asarray((at_least + 1) / (n + 1)).reshape(scores.shape)
+        return np.asarray((at_least + own) / (n + own)).reshape(scores.shape)
     above = n - np.column_stack([np.searchsorted(known, new, side="right") for known, new in pairs])
     share = rng.uniform(size=above.shape)
-    return np.asarray((above + share * (at_least - above + 1)) / (n + 1)).reshape(scores.shape)
+    itself = share if own == 1 else own
+    return np.asarray((above + share * (at_least - above) + itself) / (n + own)).reshape(scores.shape)
 
 
 def unbounded(n_levels: int, shape: tuple[int, ...]) -> Array:

@@ -69,6 +69,36 @@ class Promise:
         return math.ceil(side * (self.n_blocks + 1) * self.n_rows)
 
 
+def own_rows(promise: Promise | None, level: float = 0.9) -> int:
+    """As how many rows a new one counts in its p-value: those of a block where blocks are enough for the level, else
+    one, and where there is a promise of blocks nothing is then promised.
+    """
+    return promise.n_rows if promise is not None and promise.holds(level) else 1
+
+
+def worth_of_p_values(promise: Promise | None, level: float = 0.9) -> str:
+    """What p-values are worth where rows are not exchangeable, in a sentence; empty where they are."""
+    if promise is None:
+        return ""
+    if promise.holds(level):
+        return (
+            f"P-values count the {promise.n_blocks} blocks of rows that the model was calibrated on: they hold for a "
+            "pose of a new block (a stretch of time, a trial), and not for its poses one by one, which are alike."
+        )
+    blocks = f"{promise.n_blocks} block{'s' * (promise.n_blocks != 1)} of rows"
+    return f"P-values have {NO_GUARANTEE}: they count rows, and the model was calibrated on {blocks}, which is too few."
+
+
+def worth_of_alarm(promise: Promise | None) -> str:
+    """What the rate of false alarms is worth where rows are not exchangeable; empty where they are."""
+    if promise is None:
+        return ""
+    return (
+        f"The rate of false alarms has {NO_GUARANTEE}: it takes poses that are exchangeable one by one, and those of a "
+        "recording come in blocks whose poses are alike, so that a new block can raise an alarm by itself."
+    )
+
+
 def calibration_rows(block: NDArray[np.int64], seed: int = 0) -> tuple[NDArray[np.intp], Promise]:
     """Row numbers (n_blocks * n_rows,) with which each block counts alike, and what they promise.
 

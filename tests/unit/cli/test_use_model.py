@@ -9,6 +9,7 @@ import pytest
 
 from softkin.cli.use_model import check_recording, command_table, finite, predicted_table, read_rows
 from softkin.core.errors import DataError
+from softkin.uncertainty.promise import Promise
 from tests.conftest import bending_arm
 from tests.unit.uncertainty.small_robot import small_robot
 from tests.unit.uncertainty.test_failures import robot as failing_robot
@@ -90,3 +91,13 @@ def test_a_robot_in_pixels_says_so() -> None:
     assert wished["unit"].tolist() == ["px"]
     assert " mm" not in repr(robot)
     assert " px mean marker error" in repr(robot)
+
+
+def test_of_blocks_a_check_says_what_its_p_values_and_its_alarm_are_worth() -> None:
+    assert "no guarantee" not in " ".join(check_recording(ROBOT, COMMANDS, POSITIONS, 0.01).sentences())
+    for promise, expected in ((Promise(12, 5), "at most 10% have"), (Promise(4, 15), "P-values have no guarantee")):
+        robot = replace(ROBOT, joint=replace(ROBOT.joint, promise=promise))
+        said = " ".join(check_recording(robot, COMMANDS, POSITIONS + np.array([2.0, 0.0, 0.0]), 0.01).sentences())
+        assert expected in said
+        assert "The rate of false alarms has no guarantee" in said
+        assert "or only this stretch of time is unlike" in said

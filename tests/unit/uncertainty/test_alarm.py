@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from softkin.uncertainty.alarm import Watch
+from softkin.uncertainty.promise import Promise
 
 NAMES = ("x", "y", "z")
 
@@ -60,3 +61,18 @@ def test_it_is_the_martingale_of_crepes() -> None:
     assert watch.alarm is not None
     assert watch.alarm.pose == 1 + int(np.argmax(grown >= 20))
     assert watch.alarm.martingale == pytest.approx(grown[watch.alarm.pose - 1])
+
+
+def test_of_blocks_the_rate_is_no_guarantee_and_the_watch_says_so() -> None:
+    """30 watches of a new block of 20 poses that are alike, at a rate of 10 %: far more false alarms than that."""
+    promise, alarms = Promise(20, 20), 0
+    for seed in range(30):
+        rng = np.random.default_rng(seed)
+        errors = np.repeat(rng.standard_normal((21, 1)), 20, axis=0) + 0.3 * rng.standard_normal((420, 1))
+        watch = Watch(errors[:400], ["x"], rate=0.1, seed=seed, promise=promise)
+        for error in errors[400:]:
+            watch.judge(error)
+        alarms += watch.alarm is not None
+    assert alarms > 9
+    assert "no guarantee" in watch.worth
+    assert Watch(errors, ["x"]).worth == ""

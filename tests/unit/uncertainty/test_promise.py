@@ -8,10 +8,20 @@ import pytest
 
 from softkin.core.samples import Samples
 from softkin.uncertainty.calibration_data import PointCalibration
-from softkin.uncertainty.conformal import conformal_limits, weighted_limits
+from softkin.uncertainty.conformal import conformal_limits, p_values, weighted_limits
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from softkin.uncertainty.intervals.spec import MARGINAL
-from softkin.uncertainty.promise import BY_BLOCK, Promise, calibration_rows, calibration_set, promised, promised_methods
+from softkin.uncertainty.promise import (
+    BY_BLOCK,
+    Promise,
+    calibration_rows,
+    calibration_set,
+    own_rows,
+    promised,
+    promised_methods,
+    worth_of_alarm,
+    worth_of_p_values,
+)
 
 
 def test_each_block_counts_alike() -> None:
@@ -105,3 +115,37 @@ def test_held_out_blocks_are_covered_where_rows_would_not_be() -> None:
         by_block.append((new <= conformal_limits(scores, [promise.asked(0.9)])[0, 0]).mean())
     assert np.mean(by_row) < 0.875
     assert np.mean(by_block) > 0.89
+
+
+def blocks_of_rows(rng: np.random.Generator, n_blocks: int, n_rows: int) -> np.ndarray:
+    """Scores (n_blocks, n_rows) that are alike within a block."""
+    return np.abs(rng.standard_normal((n_blocks, 1)) + 0.05 * rng.standard_normal((n_blocks, n_rows)))
+
+
+@pytest.mark.parametrize("smooth", [False, True])
+def test_p_values_hold_for_a_row_of_a_new_block_where_they_count_blocks(smooth: bool) -> None:
+    """Over 1000 draws of 12 blocks: at most 10 % of rows of a new one; counting rows it is more."""
+    rng, promise, found = np.random.default_rng(0), Promise(12, 20), {1: 0, own_rows(Promise(12, 20)): 0}
+    for _ in range(1000):
+        scores = blocks_of_rows(rng, promise.n_blocks + 1, promise.n_rows)
+        for own in found:
+            small = p_values(scores[:-1].ravel(), scores[-1, :1], rng=rng if smooth else None, own=own)
+            found[own] += int((small <= 0.1).sum())
+    assert found[20] / 1000 <= 0.1 + 3 * np.sqrt(0.1 * 0.9 / 1000)
+    assert found[1] / 1000 > 0.12
+
+
+def test_p_values_and_limits_agree_on_who_is_outside() -> None:
+    promise, scores = Promise(12, 20), blocks_of_rows(np.random.default_rng(1), 12, 20).ravel()
+    new = np.linspace(0.0, 4.0, 300)
+    limit = conformal_limits(scores[:, None], [promise.asked(0.9)])[0, 0]
+    np.testing.assert_array_equal(p_values(scores, new, own=own_rows(promise)) > 0.1, new <= limit)
+
+
+def test_where_blocks_are_too_few_rows_count_and_nothing_is_promised() -> None:
+    assert [own_rows(promise) for promise in (None, Promise(8, 5), Promise(9, 5), Promise(1, 40))] == [1, 1, 5, 1]
+    assert worth_of_p_values(None) == worth_of_alarm(None) == ""
+    assert "P-values have no guarantee: they count rows" in worth_of_p_values(Promise(1, 40))
+    assert "calibrated on 1 block of rows" in worth_of_p_values(Promise(1, 40))
+    assert "P-values count the 9 blocks" in worth_of_p_values(Promise(9, 5))
+    assert "The rate of false alarms has no guarantee" in worth_of_alarm(Promise(9, 5))
