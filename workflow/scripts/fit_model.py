@@ -5,7 +5,7 @@ from softkin.core.job import job
 from softkin.core.manifest import write_manifest
 from softkin.core.runs import INTERPOLATION, OUTER, PAPER, SEARCHED, TUNED
 from softkin.models import MODELS
-from softkin.training.fit import FitFiles, fit
+from softkin.training.fit import FitFiles, fit_each
 from softkin.training.held_out import Robot
 from softkin.training.kinematic_model import FitSettings, searched_settings
 from softkin.training.study import TuningSettings
@@ -47,6 +47,6 @@ with job(snakemake.log[0], f"fit {dataset} {model}", snakemake.output, snakemake
             code=params.study_code,
             threads=threads,
         )
-    for preset, of_preset in of_presets:
-        fit(files.table, spec=spec, settings=settings_of(preset), files=of_preset, max_rows=params.max_rows)
+    fits = [(settings_of(preset), of_preset) for preset, of_preset in of_presets]
+    fit_each(files.table, spec=spec, fits=fits, max_rows=params.max_rows)
     write_manifest(output.manifest, [file for file in output if file != output.manifest])

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import logging
+import shutil
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -26,6 +28,36 @@ class FitFiles:
     model: str | Path
     record: str | Path
     predictions: str | Path
+
+
+def fit_each(
+    table: str | Path,
+    *,
+    spec: ModelSpec,
+    fits: Sequence[tuple[FitSettings, FitFiles]],
+    max_rows: int | None = None,
+) -> None:
+    """Fit by each of several settings, as `fit` does. What two studies found alike is fitted once: a fit follows from
+    its settings to the bit, and the second takes copies of the first one's files, times included.
+
+    Parameters:
+        table: path of the tidy table (Parquet).
+        spec: the model.
+        fits: settings, and where model, record and predictions go.
+        max_rows: as of `fit`.
+    """
+    done: list[tuple[FitSettings, FitFiles]] = []
+    for settings, files in fits:
+        same = next((known for made, known in done if made == settings), None)
+        if same is None:
+            fit(table, spec=spec, settings=settings, files=files, max_rows=max_rows)
+            done.append((settings, files))
+            continue
+        pairs = ((same.model, files.model), (same.record, files.record), (same.predictions, files.predictions))
+        for source, target in pairs:
+            with replacing(target) as temporary:
+                shutil.copyfile(source, temporary)
+        logger.info("its settings are those of a fit before, whose model and predictions are taken")
 
 
 def fit(

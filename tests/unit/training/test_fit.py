@@ -2,6 +2,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import joblib
 import numpy as np
@@ -11,8 +12,8 @@ from softkin.core.files import read_json
 from softkin.core.samples import SUBSETS, TRAIN, Samples
 from softkin.data.table import read_subset, to_table, write_table
 from softkin.models import MODELS
-from softkin.training.fit import FitFiles, fit
-from softkin.training.kinematic_model import FitSettings, fitted_model, recorded_settings
+from softkin.training.fit import FitFiles, fit, fit_each
+from softkin.training.kinematic_model import FitSettings, fit_quietly, fitted_model, recorded_settings
 from tests.conftest import bending_arm
 
 SETTINGS = FitSettings({}, skip_constant=False, seed=0, threads=1)
@@ -47,6 +48,25 @@ def test_the_record_holds_what_a_refit_needs_and_what_the_fit_took(table: Path, 
     assert record["predict_us_per_row"] > 0
     bounded = replace(SETTINGS, params={"C": 100.0, "epsilon": 1e-3, "max_iter": 2})
     assert read_json(run(table, tmp_path, "svr", bounded) / "fit.json")["solvers_at_iteration_bound"] == 3
+
+
+def test_settings_that_two_studies_found_are_fitted_once(
+    table: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fitted: list[Any] = []
+
+    def counted(estimator: Any, *given: Any) -> int:
+        fitted.append(estimator)
+        return fit_quietly(estimator, *given)
+
+    monkeypatch.setattr("softkin.training.fit.fit_quietly", counted)
+    found = [FitSettings({"alpha": alpha}, True, seed=0, threads=1) for alpha in (1e-3, 0.5, 1e-3)]
+    files = [FitFiles(tmp_path / f"{i}.joblib", tmp_path / f"{i}.json", tmp_path / f"{i}.parquet") for i in range(3)]
+    fit_each(table, spec=MODELS["lasso"], fits=list(zip(found, files, strict=True)))
+    assert len(fitted) == 2
+    for suffix in (".joblib", ".json", ".parquet"):
+        first, other, again = ((tmp_path / f"{i}{suffix}").read_bytes() for i in range(3))
+        assert first == again != other
 
 
 def test_other_subsets_cannot_leak_into_a_fit(table: Path, tmp_path: Path) -> None:
