@@ -18,6 +18,7 @@ from softkin.core.units import MM, own_unit, per_unit, unit_in_tables
 from softkin.data.marker_order import RELABELLED, relabelled
 from softkin.data.own_files import in_words
 from softkin.data.readers import READERS, WITH_NAMES
+from softkin.data.readers.columns import ORIENTATION, UNUSED, orientations
 from softkin.data.readers.complete_rows import LOST_MARKERS
 from softkin.data.recordings import description as recording_description
 from softkin.data.recordings import with_order_table
@@ -98,12 +99,18 @@ def prepare(
 
 
 def _columns(columns: Mapping[str, Any], source: Mapping[str, Any], counts: Mapping[str, Any]) -> dict[str, Any]:
-    """What the robot's own file calls the `columns` that are kept, and its unit; empty for files without names."""
+    """What the robot's own file calls the `columns` that are kept, and its unit; which columns are not used, and which
+    of these are an orientation. Empty for files without names.
+    """
     if not columns:
         return {}
     lost = {name for marker in counts.get(LOST_MARKERS, ()) for name in marker["columns"]}
     kept = [name for name in columns["positions"] if name not in lost]
-    return {"columns": {**columns, "positions": kept, "mm_per_unit": per_unit(source["position_unit"])}}
+    unused = columns[UNUSED]
+    found = {UNUSED: unused, ORIENTATION: orientations(unused)}
+    named = {key: value for key, value in columns.items() if key != UNUSED}
+    named |= {"positions": kept, "mm_per_unit": per_unit(source["position_unit"])}
+    return {key: names for key, names in found.items() if names} | {"columns": named}
 
 
 def _description(samples: Mapping[str, Samples], source: Mapping[str, Any]) -> dict[str, Any]:

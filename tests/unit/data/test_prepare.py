@@ -92,6 +92,9 @@ def test_a_table_of_ones_own_is_read_once_and_described_by_what_it_holds(
     named = written_description["columns"]
     assert (len(named["commands"]), len(named["positions"])) == (written_description["n_commands"], 4)
     assert (named["dimensions"], named["mm_per_unit"]) == (2, 25.4)
+    others = set(pd.read_csv(example, nrows=1).columns) - {*named["commands"], *named["positions"]}
+    assert set(written_description.get("unused_columns", [])) == others
+    assert "orientation_columns" not in written_description
     written, prepared = pd.read_csv(example), pd.read_parquet(table)
     by = ["u1", "u2", "u3"]
     prepared = prepared.sort_values(by)

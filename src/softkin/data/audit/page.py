@@ -8,6 +8,7 @@ from typing import Any
 from softkin.core.escaping import markdown_text
 from softkin.core.samples import SUBSETS, TRAIN
 from softkin.data.audit.findings import counted
+from softkin.data.readers.columns import ORIENTATION, UNUSED
 from softkin.data.readers.complete_rows import GAPS, LOST_MARKERS, UNJOINED
 
 OTHERS = [subset for subset in SUBSETS if subset != TRAIN]
@@ -35,6 +36,7 @@ def page(card: Mapping[str, Any]) -> str:
         *_removed(card["removed_from_train"]),
         *_not_read(card),
         *_relabelled(card.get("relabelled_rows")),
+        *_unused(card),
         "## Ranges",
         f"Commands in the file's own unit, positions in {unit} (the file has {card['unit_in_file']}).",
         _ranges(card["subsets"]),
@@ -105,6 +107,24 @@ def _relabelled(counts: Mapping[str, int] | None) -> list[str]:
         return []
     listed = ", ".join(f"{count} of {subset}" for subset, count in counts.items())
     return [f"Markers put back in order by `relabel: true`, rows: {listed}."]
+
+
+def _unused(card: Mapping[str, Any]) -> list[str]:
+    """Columns of the file that the entry names nowhere; an orientation among them is not predicted."""
+    said = [
+        f"{what}: {_listed(card[key])}."
+        for key, what in (
+            (UNUSED, "Columns of the file that the entry does not name"),
+            (ORIENTATION, "An orientation by their names, which is measured and not modelled: positions alone are"),
+        )
+        if key in card
+    ]
+    return [" ".join(said)] if said else []
+
+
+def _listed(names: Sequence[str]) -> str:
+    more = f" and {len(names) - MAX_COLUMNS_SHOWN} more" if len(names) > MAX_COLUMNS_SHOWN else ""
+    return markdown_text(", ".join(names[:MAX_COLUMNS_SHOWN]) + more)
 
 
 def _ranges(subsets: Mapping[str, Any]) -> str:

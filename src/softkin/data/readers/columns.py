@@ -10,8 +10,16 @@ from typing import Any
 from softkin.core.errors import DataError
 
 MAX_COMMANDS = 256
+#: Of a dataset's description: columns that are not used, and those of them that are an orientation.
+UNUSED, ORIENTATION = "unused_columns", "orientation_columns"
 #: From more on it is said what they cost.
 MANY_COMMANDS = 64
+_ORIENTATION = frozenset(
+    (
+        *("roll", "pitch", "yaw", "rpy", "quaternion", "quat", "qx", "qy", "qz", "qw"),
+        *("rotation", "rot", "orientation", "euler"),
+    )
+)
 _AXIS = re.compile(r"(?<![A-Za-z])[xyz](?![A-Za-z])|(?<![A-Z])[XYZ](?![A-Za-z])")
 _UNIT = re.compile(r"[\[(_ .](mm|cm|m|in|px|pixels?)[\])]?$")
 
@@ -34,6 +42,15 @@ def unit_of(name: str) -> str | None:
     """The unit that a column's name ends with, as in `x_mm` or `x [mm]`; None where it has none."""
     unit = _UNIT.search(name)
     return unit.group(1) if unit else None
+
+
+def orientations(names: Sequence[str]) -> list[str]:
+    """The columns that are an orientation by their names: quaternions, roll, pitch and yaw, rotations.
+
+    >>> orientations(["tip_x", "tip_qw", "Rotation Y", "u1"])
+    ['tip_qw', 'Rotation Y']
+    """
+    return [name for name in names if set(re.findall("[a-z]+", name.lower())) & _ORIENTATION]
 
 
 def choose(names: Sequence[str], wanted: str | Sequence[str], key: str) -> list[int]:

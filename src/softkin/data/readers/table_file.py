@@ -43,7 +43,8 @@ def read(
 ) -> dict[str, Samples]:
     """Samples per subset, rows in the order of the file, positions in its own unit; planar ones get a third
     coordinate 0. `counts` gets what was left out, by the names of `complete_rows.COUNTED`, as the entry asks for it;
-    `own_columns` what the columns of `commands` and `positions` are called, and how many `dimensions` a marker has.
+    `own_columns` what the columns of `commands` and `positions` are called, how many `dimensions` a marker has, and the
+    `unused_columns`, of which the entry names none.
 
     Memory is computed before rows are left out, and not across a row whose command is missing.
 
@@ -57,7 +58,10 @@ def read(
         chosen = [*commands, *coordinates]
         names = [table.names[place] for place in chosen]
         n_commands, dimensions = len(commands), source.get("dimensions", 3)
-        _tell(own_columns, commands=names[:n_commands], positions=names[n_commands:], dimensions=dimensions)
+        used = {*chosen, *named.values()}
+        unused = [name for place, name in enumerate(table.names) if place not in used]
+        about = {"commands": names[:n_commands], "positions": names[n_commands:], columns.UNUSED: unused}
+        _tell(own_columns, dimensions=dimensions, **about)
         missing = source.get("missing", REFUSE)
         others = [place for place in dict.fromkeys(named.values()) if place not in chosen]
         values, read_others = table.read(chosen, others, gaps=missing != REFUSE)

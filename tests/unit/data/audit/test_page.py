@@ -104,3 +104,12 @@ def test_rows_that_were_dropped_are_counted(card: dict[str, Any]) -> None:
     assert "`clean`" not in page(card)
     card["removed_from_train"] = {"stuck_rows": 2, "duplicate_rows": 0}
     assert "Dropped from train by `clean`: 2 stuck rows, 0 duplicate rows." in page(card)
+
+
+def test_columns_that_are_not_used_are_named_and_orientations_are_said_to_be_left_out(card: dict[str, Any]) -> None:
+    assert "does not name" not in page(card)
+    card |= {"unused_columns": ["frame", "tip_qw"], "orientation_columns": ["tip_qw"]}
+    assert "Columns of the file that the entry does not name: frame, tip" in page(card)
+    assert "which is measured and not modelled: positions alone are: tip" in page(card)
+    many = page(card | {"unused_columns": [f"c{i}" for i in range(20)]})
+    assert "c11 and 8 more." in many

@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from softkin.core.errors import DataError
-from softkin.data.readers.columns import axis_of, check, choose, marker_by_marker, unit_of
+from softkin.data.readers.columns import axis_of, check, choose, marker_by_marker, orientations, unit_of
 
 NAMES = ["t", "u1", "u2", "m1_x", "m1_y", "m1_z", "m2_x", "m2_y", "m2_z", "note", "note"]
 
@@ -120,3 +120,9 @@ def test_another_number_than_registered_is_an_error(key: str) -> None:
 
 def test_marker_by_marker_keeps_the_order_of_markers() -> None:
     assert marker_by_marker(["tip_z", "base_x", "tip_x", "base_z"]) == ["tip_x", "tip_z", "base_x", "base_z"]
+
+
+def test_orientations_are_told_by_their_names() -> None:
+    """Not by a letter alone: q1 may be a joint."""
+    oriented = ["tip_qw", "roll", "rpy_x", "quaternion_w", "Rotation Y"]
+    assert orientations([*oriented, "tip_x", "q1", "u1", "p_rob"]) == oriented
