@@ -29,6 +29,8 @@ def test_case_21_two_frames_of_one_marker_are_a_question() -> None:
     entries = [guess_entry(path, "Arm", "arm.csv", None, answer) for answer in (0, 1)]
     assert [entry["positions"] for entry, _ in entries] == [["tip_x", "tip_y"], ["tip_x_img", "tip_y_img"]]
     assert any("pixels" in reason for reason in entries[1][1])
+    assert [entry["position_unit"] for entry, _ in entries] == ["mm", "px"]
+    assert any("px if these are pixels, as 'tip_x_img' seems to be" in reason for reason in entries[0][1])
 
 
 def test_desired_positions_are_commands_or_nothing(tmp_path: Path) -> None:
