@@ -29,7 +29,7 @@ endif
 .PHONY: gallery numbers results-page single-rows
 .PHONY: snakemake-report campaigns campaign-slurm coverage standins timings benchmark benchmark-large benchmark-pruning benchmark-shells
 .PHONY: benchmark-figures benchmark-two-files benchmark-commands benchmark-many-robots benchmark-recalibration benchmark-choice benchmark-promises
-.PHONY: benchmark-latency latency-page benchmark-inverse
+.PHONY: benchmark-latency latency-page benchmark-inverse benchmark-difficulty benchmark-peers
 .PHONY: environment clean ui-screenshot bad-inputs-page faults-page
 
 # These targets, each with the first sentence of the comment above it.
@@ -183,6 +183,14 @@ benchmark-shells: .venv/installed
 # Which score picks the interval method that serves the rows that are no gross errors, on simulated robots.
 benchmark-choice: .venv/installed
 	$(BIN)/python -m benchmarks.choice
+
+# Whether intervals cover hard commands as often as easy ones, on simulated robots.
+benchmark-difficulty: .venv/installed
+	$(BIN)/python -m benchmarks.difficulty
+
+# docs/peers.md: FLAML, AutoGluon, CatBoost and a random search beside a finished run. It installs 2 GB in results/peers.
+benchmark-peers: .venv/installed
+	$(BIN)/python -m benchmarks.peers
 
 # What a few labelled poses of a new session do to coverage and width, and how soon the alarm notices one.
 benchmark-recalibration: .venv/installed

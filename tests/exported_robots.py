@@ -16,6 +16,7 @@ from softkin.training.kinematic_model import FitSettings, fitted_model
 from softkin.uncertainty.calibrated import FittedModel, calibrated
 from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.calibration_data import Shell
+from softkin.uncertainty.held_out_difficulty import fit_difficulty
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from tests.conftest import bending_arm
 from tests.contract import laws
@@ -78,6 +79,23 @@ def recalibrated() -> CalibratedModel:
     return replace(remembering().recalibrate(commands, positions))
 
 
+@cache
+def hard_somewhere() -> CalibratedModel:
+    """A polynomial whose errors on held-out rows differ by place and by coordinate, one of them constant; commands on a
+    grid have neighbours at equal distances.
+    """
+    axis = np.linspace(-1, 1, 15)
+    commands = np.stack(np.meshgrid(axis, axis), axis=-1).reshape(-1, 2)
+    hard = [10 ** commands[:, 0], 10 ** np.linalg.norm(commands, axis=1), np.ones(len(commands))]
+    errors = np.abs(np.random.default_rng(0).standard_normal((len(commands), 3))) * np.column_stack(hard)
+    difficulty = fit_difficulty(commands, errors, np.array([0, 1, 2, -1, 0, 1]))
+    settings = FitSettings({"degree": 2, "alpha": 1e-3}, True, 0, 1)
+    estimator = fitted_model(MODELS["ridge"], settings, TRAIN)
+    model = FittedModel("hard", MODELS["ridge"], "tuned", estimator, TRAIN, difficulty)
+    return calibrated(model, INTERVAL_METHODS["scp_held_out"], VALIDATION)
+
+
 ROBOTS: dict[str, Callable[[], CalibratedModel]] = {name: partial(small, name) for name in MODELS}
 ROBOTS |= {"remembers": remembering, "previous": lambda: remembering("previous"), "recalibrated": recalibrated}
+ROBOTS |= {"hard somewhere": hard_somewhere}
 ROBOTS |= {"mean": partial(mean_of, "lr", "huber"), "mean in sessions": partial(mean_of, "remembers", "previous")}

@@ -11,6 +11,7 @@ from softkin.core.samples import Array
 from softkin.uncertainty.calibration_data import (
     CalibrationData,
     FoldCalibration,
+    HeldOutCalibration,
     PointCalibration,
     PredictiveCalibration,
     QuantileCalibration,
@@ -20,6 +21,7 @@ from softkin.uncertainty.calibration_data import (
     ShellCalibration,
     SpreadCalibration,
 )
+from softkin.uncertainty.held_out_difficulty import fit_difficulty
 
 N_TRAIN, N_NEW, N_COORDINATES = 300, 40, 3
 LEVELS = (0.8, 0.9, 0.95)
@@ -46,6 +48,14 @@ def _points(n: int, rng: np.random.Generator) -> tuple[PointCalibration, Array]:
         calibration[1], calibration[2], new[1], train_commands, calibration_commands=calibration[0], new_commands=new[0]
     )
     return data, new[2]
+
+
+def _with_difficulty(n: int, rng: np.random.Generator) -> Made:
+    """Hard where errors on held-out rows were large: far from the mean command."""
+    data, truth = _points(n, rng)
+    commands, predicted, held_out = _rows(N_TRAIN, rng)
+    difficulty = fit_difficulty(commands, np.abs(predicted - held_out), np.arange(N_COORDINATES))
+    return HeldOutCalibration(**vars(data), difficulty=difficulty), truth
 
 
 def _with_spread(kind: type[SpreadCalibration]) -> Callable[[int, np.random.Generator], Made]:
@@ -104,6 +114,7 @@ def _shells(n: int, rng: np.random.Generator) -> Made:
 
 MAKERS: dict[type[CalibrationData], Callable[[int, np.random.Generator], Made]] = {
     PointCalibration: _points,
+    HeldOutCalibration: _with_difficulty,
     SpreadCalibration: _with_spread(SpreadCalibration),
     PredictiveCalibration: _with_spread(PredictiveCalibration),
     QuantileCalibration: _quantiles,

@@ -98,13 +98,12 @@ def run(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
     write_json(folder / "dataset.json", DESCRIPTION)
     write_json(folder / "data_card.json", {"dataset": "arm", "findings": [], "unit_in_file": "mm"})
     build_calibrated_model(
-        table,
+        outputs,
         description=folder / "dataset.json",
         choice=folder / "choice.csv",
         specs=MODELS,
         methods=INTERVAL_METHODS,
         models={RIDGE: folder / "model.joblib"},
-        shells=folder / "shells.npz",
         output=folder / "robot.joblib",
     )
     record_job(folder / "logs" / "calibrate.log", [folder / "robot.joblib"])

@@ -21,7 +21,6 @@ rule calibrate:
     threads: 1
     params:
         **interval_params(),
-        searched=searched_runs,
         objective=config["objective"],
         regime=config["regime"],
         code=code_of("calibrate", *interval_modules()),

@@ -132,6 +132,9 @@ def interval_params():
         "methods": methods_of,
         "runs": every_run,
         "quantile_runs": quantile_runs,
+        "searched": searched_runs,
+        "pool": pool_runs,
+        "study_parts": STUDY_PARTS,
         "confidence_levels": config["confidence_levels"],
         "seed": config["seed"],
     }

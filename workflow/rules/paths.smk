@@ -95,6 +95,12 @@ QUANTILE_PRESETS = [
 ] * asks_for("needs_quantiles")
 # The refits that a configured method needs; none of the others are made.
 REFITS = ["results/{dataset}/refits.npz"] * asks_for("needs_refits")
+# Of which rows of train the studies stored held-out errors, where a configured method needs them.
+STUDY_PARTS = (
+    {key: config["tuning"][key] for key in ("n_folds", "max_rows", "max_markers")}
+    if asks_for("needs_held_out")
+    else None
+)
 SHELLS = ["results/{dataset}/shells.npz"] * asks_for("needs_shells")
 OTHER_SPACES = ["results/{dataset}/other_spaces.parquet"] * bool(COMPARED)
 INTERVAL_MANIFEST = f"results/{{dataset}}/intervals/{MANIFEST}"

@@ -31,7 +31,6 @@ rule score:
     params:
         **interval_params(),
         robot=robot,
-        searched=searched_runs,
         objective=config["objective"],
         compared=compared_models,
         robust_models=ROBUST_MODELS,

@@ -38,13 +38,12 @@ with job(snakemake.log[0], f"calibrate {dataset}", written, snakemake.input, sna
     )
     for calibrated_model in output.calibrated_model:
         build_calibrated_model(
-            files.table,
+            outputs,
             description=files.description,
             choice=output.choice,
             specs=MODELS | ENSEMBLES,
             methods=INTERVAL_METHODS,
             models=models,
-            shells=next(iter(files.shells), None),
             output=calibrated_model,
         )
     write_manifest(output.manifest, intervals.values())

@@ -15,6 +15,7 @@ from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.calibration_data import Shell
 from softkin.uncertainty.conformal import error_scale
 from softkin.uncertainty.failures import FailureClass
+from softkin.uncertainty.held_out_difficulty import HeldOutDifficulty
 from softkin.uncertainty.intervals.spec import IntervalMethod
 from softkin.uncertainty.joint_region import joint_region
 from softkin.uncertainty.promise import Promise
@@ -22,13 +23,16 @@ from softkin.uncertainty.promise import Promise
 
 @dataclass(frozen=True, slots=True)
 class FittedModel:
-    """A fitted point model: its entry in the registry, preset, estimator, and the rows of `train`."""
+    """A fitted point model: its entry in the registry, preset, estimator, rows of `train`; how hard commands are for
+    it, by its errors on held-out folds of `train`, where that is known.
+    """
 
     dataset: str
     spec: PointModel
     preset: str
     estimator: Any
     train: Samples
+    difficulty: HeldOutDifficulty | None = None
 
     def spread(self, inputs: Array) -> Array:
         """Spread of the model at inputs (n_rows, n_inputs): (n_rows, n_coordinates) in mm."""
@@ -59,7 +63,7 @@ def calibrated(
     """
     train = model.train
     predicted = np.asarray(model.estimator.predict(validation.inputs))
-    known: dict[str, Array] = {
+    known: dict[str, Any] = {
         "calibration": predicted,
         "truth": validation.positions,
         "new": predicted[:0],
@@ -71,6 +75,8 @@ def calibrated(
         known["train_spread"] = model.spread(train.inputs)
         known["calibration_spread"] = model.spread(validation.inputs)
         known["new_spread"] = known["calibration_spread"][:0]
+    if method.calibrated_on.needs_held_out:
+        known["difficulty"] = model.difficulty
     moving = informative_coordinates(train.positions)
     residuals = train.positions - model.estimator.predict(train.inputs)
     scale = error_scale(np.abs(residuals[:, moving]))

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from softkin.core.samples import Array
+from softkin.uncertainty.held_out_difficulty import HeldOutDifficulty
 
 Rows = NDArray[np.intp]
 
@@ -24,9 +25,9 @@ class CalibrationData:
     `is_around_a_model`: intervals lie around the prediction of a point model, not of a quantile regressor.
     `is_for_extrapolation`: it serves commands in extrapolation, and adds nothing in-domain.
     `has_spread`: it holds the spread of the model at each command.
-    `needs_quantiles`, `needs_refits`, `needs_shells`: it is read from quantile regressors, from refits of a model on
-    folds or bootstrap samples, or from refits on cores of `train`. Calibration rows are those of `train` where it
-    needs refits, else those of `validation`.
+    `needs_quantiles`, `needs_refits`, `needs_shells`, `needs_held_out`: it is read from quantile regressors, from
+    refits of a model on folds or bootstrap samples, from refits on cores of `train`, or from what its study predicted
+    of held-out folds. Calibration rows are those of `train` where it needs refits, else those of `validation`.
     """
 
     is_around_a_model: ClassVar[bool] = True
@@ -35,6 +36,7 @@ class CalibrationData:
     needs_quantiles: ClassVar[bool] = False
     needs_refits: ClassVar[bool] = False
     needs_shells: ClassVar[bool] = False
+    needs_held_out: ClassVar[bool] = False
 
 
 @dataclass(frozen=True)
@@ -58,6 +60,15 @@ class PointCalibration(CalibrationData):
             calibration_commands=self.calibration_commands[calibration_rows],
             new_commands=self.calibration_commands[held_out_rows],
         )
+
+
+@dataclass(frozen=True)
+class HeldOutCalibration(PointCalibration):
+    """Predicted positions of a searched model, and how hard commands are for it by its errors on held-out folds."""
+
+    difficulty: HeldOutDifficulty
+
+    needs_held_out: ClassVar[bool] = True
 
 
 @dataclass(frozen=True)

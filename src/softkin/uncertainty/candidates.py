@@ -16,9 +16,11 @@ def problems_of_methods(
 ) -> Iterator[str]:
     """Why no calibrated model could be made of the configured `interval_methods`, and methods that have no data."""
     configured = [methods[name] for name in config["interval_methods"]]
-    ensembles = config["ensembles"] if set(SEARCHED) & set(config["presets"]) else []
+    is_searched = bool(set(SEARCHED) & set(config["presets"]))
+    ensembles = config["ensembles"] if is_searched else []
     pool = [models[name] for name in [*config["models"], *ensembles]]
-    if not any(_can_be_deployed(method, pool) for method in configured):
+    usable = [method for method in configured if is_searched or not method.calibrated_on.needs_held_out]
+    if not any(_can_be_deployed(method, pool) for method in usable):
         yield (
             f"interval_methods: of {', '.join(config['interval_methods'])} none is calibrated around every model, so "
             "no calibrated model can be made; add scp_mapie"

@@ -12,15 +12,18 @@ import pandas as pd
 from softkin.core.bounds import bounds_levels, read_bounds
 from softkin.core.manifest import files_of_runs
 from softkin.core.run_archive import RunArchive, read_run_archive
-from softkin.core.runs import Run
+from softkin.core.runs import TUNED, Run
 from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, VALIDATION, Array, Samples
 from softkin.core.shells import CommandNorm
 from softkin.data.table import read_subset
+from softkin.training.held_out import PartSettings
 from softkin.training.predict import SPREAD, STANDARD_DEVIATION
 from softkin.training.refit import FOLD_OF_ROW, FOLDS, RESAMPLE_ROWS, RESAMPLES
 from softkin.training.refit_shells import CENTRE, SCALE, core_rows, shell_rows
+from softkin.training.selection import deployable_runs
 from softkin.uncertainty.calibration_data import (
     FoldCalibration,
+    HeldOutCalibration,
     PointCalibration,
     PredictiveCalibration,
     QuantileCalibration,
@@ -29,6 +32,8 @@ from softkin.uncertainty.calibration_data import (
     ShellCalibration,
     SpreadCalibration,
 )
+from softkin.uncertainty.held_out_difficulty import HeldOutDifficulty
+from softkin.uncertainty.held_out_errors import difficulties
 from softkin.uncertainty.intervals.spec import Data
 from softkin.uncertainty.promise import calibration_set
 
@@ -49,6 +54,7 @@ class StoredOutputs:
         refits: the file of the rule `refit`; None: no run was refitted on folds and bootstrap samples.
         confidence_levels: nominal levels in (0, 1), ascending.
         shells: the file of the rule `refit_shells`; None: no run was refitted on cores of `train`.
+        difficulties: run -> how hard commands are for it by its errors on held-out folds of `train`.
     """
 
     def __init__(
@@ -60,6 +66,7 @@ class StoredOutputs:
         refits: str | Path | None,
         confidence_levels: Sequence[float],
         shells: str | Path | None = None,
+        difficulties: Mapping[Run, HeldOutDifficulty] | None = None,
     ) -> None:
         self.train = read_subset(table, TRAIN)
         self.validation, self.calibrated, self.promise = calibration_set(read_subset(table, VALIDATION))
@@ -67,6 +74,7 @@ class StoredOutputs:
         self.levels = list(confidence_levels)
         self.predictions = {run: pd.read_parquet(path) for run, path in predictions.items()}
         self.quantiles = {run: pd.read_parquet(path) for run, path in quantiles.items()}
+        self.difficulties = difficulties or {}
         self.refits, self.shells = read_run_archive(refits), read_run_archive(shells)
 
     def of(self, kind: type[Data]) -> Iterator[tuple[Run, Data]]:
@@ -79,6 +87,7 @@ class StoredOutputs:
             FoldCalibration: self._folds,
             ResampleCalibration: self._resamples,
             ShellCalibration: self._shells,
+            HeldOutCalibration: self._held_out,
         }
         return readers[kind]()
 
@@ -104,6 +113,11 @@ class StoredOutputs:
                         new_spread=predicted_rows(stored, INTERVAL_SUBSETS, prefix),
                     ),
                 )
+
+    def _held_out(self) -> Iterator[tuple[Run, HeldOutCalibration]]:
+        for run in self.predictions:
+            if run in self.difficulties:
+                yield run, HeldOutCalibration(**self._predicted(run), difficulty=self.difficulties[run])
 
     def _predicted(self, run: Run) -> dict[str, Array]:
         stored = self.predictions[run]
@@ -155,6 +169,21 @@ def stored_outputs(files: Any, params: Any) -> StoredOutputs:
         refits=next(iter(files.refits), None),
         shells=next(iter(files.shells), None),
         confidence_levels=params.confidence_levels,
+        difficulties=_difficulties(files, params),
+    )
+
+
+def _difficulties(files: Any, params: Any) -> dict[Run, HeldOutDifficulty]:
+    """Of the searched runs of a rule that can be deployed; {} where no method asks for them."""
+    if params.study_parts is None:
+        return {}
+    parameters = files_of_runs(files.models, params.searched, "parameters.json")
+    runs = deployable_runs([], parameters, params.objective)
+    return difficulties(
+        read_subset(files.table, TRAIN),
+        PartSettings(**params.study_parts, core_shares=(), scores={TUNED}, seed=params.seed),
+        files_of_runs(files.models, params.pool, "held_out.npz"),
+        files_of_runs(files.models, runs, "fit.json"),
     )
 
 

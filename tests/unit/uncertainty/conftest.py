@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import fields
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -20,6 +21,7 @@ from softkin.data.table import read_subset
 from softkin.uncertainty.calibration_data import (
     CalibrationData,
     FoldCalibration,
+    HeldOutCalibration,
     PointCalibration,
     PredictiveCalibration,
     QuantileCalibration,
@@ -28,6 +30,7 @@ from softkin.uncertainty.calibration_data import (
     ShellCalibration,
     SpreadCalibration,
 )
+from softkin.uncertainty.held_out_difficulty import fit_difficulty
 from softkin.uncertainty.stored_outputs import StoredOutputs
 
 LEVELS = (0.8, 0.9, 0.95)
@@ -82,6 +85,15 @@ def spread_calibration(
     return PredictiveCalibration(**vars(points), train_spread=train, calibration_spread=calibration, new_spread=new)
 
 
+def held_out_calibration(n: int, seed: int = 0) -> HeldOutCalibration:
+    """Errors on held-out rows grow tenfold along the first command, and those of the calibration set do not."""
+    rng = np.random.default_rng(seed)
+    commands, given = rng.uniform(-1, 1, (200, 2)), spread_calibration(n, seed=seed)
+    errors = np.abs(rng.standard_normal((200, N_COORDINATES))) * 10 ** commands[:, :1]
+    points = {field.name: getattr(given, field.name) for field in fields(PointCalibration)}
+    return HeldOutCalibration(**points, difficulty=fit_difficulty(commands, errors, np.arange(N_COORDINATES)))
+
+
 def fold_calibration(n: int, seed: int = 0) -> FoldCalibration:
     rng = np.random.default_rng(seed)
     truth = rng.standard_normal((n, N_COORDINATES)) * 10
@@ -120,6 +132,7 @@ def shell_calibration(n: int, seed: int = 0) -> ShellCalibration:
 
 MAKERS: dict[type[CalibrationData], Callable[[int], Any]] = {
     PointCalibration: spread_calibration,
+    HeldOutCalibration: held_out_calibration,
     SpreadCalibration: spread_calibration,
     PredictiveCalibration: spread_calibration,
     QuantileCalibration: quantile_calibration,

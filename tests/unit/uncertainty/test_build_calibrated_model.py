@@ -16,6 +16,7 @@ from softkin.models import MODELS
 from softkin.training.kinematic_model import FitSettings, fitted_model
 from softkin.uncertainty.build_calibrated_model import build_calibrated_model
 from softkin.uncertainty.intervals import INTERVAL_METHODS
+from softkin.uncertainty.stored_outputs import StoredOutputs
 from tests.recorded_robot import recorded_arm
 
 
@@ -32,13 +33,12 @@ def test_a_recorded_robot_keeps_its_memory_in_the_file(tmp_path: Path) -> None:
     choice = {"model": "ridge", "preset": "tuned", "interval_method": "scp_crepes", "outside": "scp_crepes"}
     pd.DataFrame([choice | {"deployed": True}]).to_csv(tmp_path / "choice.csv", index=False)
     build_calibrated_model(
-        tmp_path / "table.parquet",
+        StoredOutputs(tmp_path / "table.parquet", predictions={}, quantiles={}, refits=None, confidence_levels=[0.9]),
         description=tmp_path / "dataset.json",
         choice=tmp_path / "choice.csv",
         specs=MODELS,
         methods=INTERVAL_METHODS,
         models={("ridge", "tuned"): tmp_path / "model.joblib"},  # type: ignore[dict-item]
-        shells=None,
         output=tmp_path / "robot.joblib",
     )
     robot = joblib.load(tmp_path / "robot.joblib")

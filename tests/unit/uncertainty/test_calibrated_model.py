@@ -20,6 +20,7 @@ from softkin.training.kinematic_model import FitSettings, fitted_model
 from softkin.uncertainty.build_calibrated_model import build_calibrated_model
 from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.intervals import INTERVAL_METHODS
+from softkin.uncertainty.stored_outputs import StoredOutputs
 from tests.conftest import bending_arm
 
 RUN = Run("gp", "tuned")
@@ -54,13 +55,19 @@ def built(files: Path, *methods: str, in_extrapolation: str = "") -> CalibratedM
     choice = pd.DataFrame(rows).assign(deployed=[method in around[:1] for method in methods])
     choice.assign(outside=in_extrapolation or choice["interval_method"]).to_csv(files / "choice.csv", index=False)
     build_calibrated_model(
-        files / "table.parquet",
+        StoredOutputs(
+            files / "table.parquet",
+            predictions={},
+            quantiles={},
+            refits=None,
+            confidence_levels=[0.9],
+            shells=files / "shells.npz",
+        ),
         description=files / "dataset.json",
         choice=files / "choice.csv",
         specs=MODELS,
         methods=INTERVAL_METHODS,
         models={RUN: files / "model.joblib"},
-        shells=files / "shells.npz",
         output=files / "calibrated.joblib",
     )
     stored = joblib.load(files / "calibrated.joblib")

@@ -30,6 +30,11 @@ def test_a_spread_is_needed_of_every_model_that_may_be_deployed() -> None:
     assert problems(["scp_spread"], [*WITH_SPREAD, WITHOUT]) == 1
 
 
+def test_held_out_errors_are_those_of_studies() -> None:
+    assert problems(["scp_held_out"], [WITHOUT], ("tuned",)) == 0
+    assert problems(["scp_held_out"], [WITHOUT], ("paper",)) == 1
+
+
 def test_quantiles_need_a_preset_that_has_them() -> None:
     assert problems(["cqr", "scp_mapie"], [WITHOUT], ("outer",)) == 1
     assert problems(["cqr", "scp_mapie"], [WITHOUT], ("tuned",)) == 0

@@ -8,14 +8,17 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from softkin.core.files import write_json
 from softkin.core.manifest import MANIFEST, write_manifest
 from softkin.core.run_archive import RunArchive
-from softkin.core.runs import Run
+from softkin.core.runs import INTERPOLATION, TUNED, Run
 from softkin.core.samples import SUBSETS, Samples
 from softkin.data.table import read_subset
+from softkin.training.held_out import PartSettings, Robot, parts_of, truth_of
 from softkin.uncertainty.calibration_data import (
     CalibrationData,
     FoldCalibration,
+    HeldOutCalibration,
     PointCalibration,
     PredictiveCalibration,
     QuantileCalibration,
@@ -146,13 +149,50 @@ def test_a_rule_names_its_stored_outputs(table: Path, stored: Path, tmp_path: Pa
         "quantile_models": [manifest_of(regressor, stored / "quantiles.parquet", tmp_path / "quantiles")],
     }
     files |= {name: [stored / f"{name}.npz"] for name in ("refits", "shells")}
-    params = SimpleNamespace(runs=[[*RUN]], quantile_runs=[[*regressor]], confidence_levels=STORED_LEVELS)
+    params = SimpleNamespace(
+        runs=[[*RUN]], quantile_runs=[[*regressor]], confidence_levels=STORED_LEVELS, study_parts=None
+    )
     outputs = stored_outputs(SimpleNamespace(table=table, **files), params)
     assert [run for run, _ in outputs.of(PointCalibration)] == [RUN]
     assert [run for run, _ in outputs.of(QuantileCalibration)] == [regressor]
     assert all(list(outputs.of(kind)) for kind in (FoldCalibration, ShellCalibration))
     few = stored_outputs(SimpleNamespace(table=table, **files | {"refits": [], "shells": []}), params)
     assert not any(list(few.of(kind)) for kind in (FoldCalibration, ShellCalibration))
+
+
+def test_a_rule_that_asks_for_difficulties_has_those_of_searched_runs(
+    table: Path, stored: Path, tmp_path: Path
+) -> None:
+    run, parts = Run("mlp", "tuned"), {"n_folds": 4, "max_rows": 30, "max_markers": 2}
+    settings = PartSettings(**parts, core_shares=(), scores={TUNED}, seed=0)
+    rows, folds = parts_of(read_subset(table, "train"), settings, Robot(None, False))
+    folder = tmp_path / "models" / "mlp" / "tuned"
+    folder.mkdir(parents=True)
+    shutil.copy(stored / "predictions.parquet", folder)
+    truth = np.concatenate(truth_of(rows, folds[TUNED]))
+    np.savez(folder / "held_out.npz", **{TUNED: truth + 1})  # type: ignore[arg-type]
+    write_json(folder / "fit.json", {})
+    write_json(folder / "parameters.json", {"cv_mae_mm": 1.0, "target_space": "cartesian"})
+    write_manifest(folder.parent / MANIFEST, sorted(folder.iterdir()))
+    files = {"models": [folder.parent / MANIFEST], "quantile_models": [], "refits": [], "shells": []}
+    of_rule = {
+        "runs": [[*run]],
+        "quantile_runs": [],
+        "searched": [[*run]],
+        "pool": [[*run]],
+        "seed": 0,
+        "objective": INTERPOLATION,
+    }
+    params = SimpleNamespace(**of_rule, study_parts=parts, confidence_levels=STORED_LEVELS)
+    outputs = stored_outputs(SimpleNamespace(table=table, **files), params)
+    ((found, data),) = outputs.of(HeldOutCalibration)
+    assert found == run
+    assert len(data.difficulty.points) == len(truth)
+    assert not list(
+        StoredOutputs(table, predictions={}, quantiles={}, refits=None, confidence_levels=STORED_LEVELS).of(
+            HeldOutCalibration
+        )
+    )
 
 
 def test_an_archive_gives_shells_by_run_and_the_command_norm() -> None:

@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from softkin.models.plain.kernels import Node
+from softkin.uncertainty.export.c_difficulty import FACTORS, difficulty_text
 from softkin.uncertainty.export.c_text import Tables, number
 
 
@@ -134,8 +135,8 @@ def bounds_text(numbers: Node, tables: Tables, n: int) -> str:
     """Lines that put bounds around the position."""
     sides = tables.name(np.stack([table["sides"] for table in numbers["tables"]])[:, 0])
     start = f"{sides}[(level * {n} + i) * 2 + side]"
-    lines = [_difficulty(numbers, tables)]
-    factor = {"none": "1.0", "spread": "difficulty[i]", "distance": "difficulty"}[numbers["difficulty"]["kind"]]
+    lines = [difficulty_text(numbers, tables)]
+    factor = FACTORS[numbers["difficulty"]["kind"]]
     lines.append(
         f"for (int i = 0; i < {n}; i++)\n    for (int side = 0; side < 2; side++) sides[i][side] = {start} * {factor};"
     )
@@ -154,35 +155,6 @@ def bounds_text(numbers: Node, tables: Tables, n: int) -> str:
     if numbers["growths"] is not None:
         lines.append(_growth(numbers, tables, n))
     return "\n".join("    " + line for text in lines if text for line in text.splitlines())
-
-
-def _difficulty(numbers: Node, tables: Tables) -> str:
-    node, n = numbers["difficulty"], numbers["n_commands"]
-    if node["kind"] == "none":
-        return ""
-    floor = number(node["floor"])
-    if node["kind"] == "spread":
-        least, count = tables.name(node["least"]), len(node["least"])
-        return (
-            f"double difficulty[{count}];\nfor (int i = 0; i < {count}; i++) {{\n"
-            f"    difficulty[i] = spread[i] + {least}[i];\n"
-            f"    if (difficulty[i] < {floor}) difficulty[i] = {floor};\n}}"
-        )
-    mean, scale, points, low, high = (tables.name(node[key]) for key in ("mean", "scale", "points", "low", "high"))
-    emptiest, unit, least = (number(node[key]) for key in ("emptiest", "unit", "least"))
-    neighbours = node["neighbours"]
-    return f"""double difficulty, beyond = 0.0, best[{neighbours}], w[{n}];
-for (int i = 0; i < {n}; i++) {{
-    double apart;
-    w[i] = (inputs[i] - {mean}[i]) / {scale}[i];
-    apart = w[i] < {low}[i] ? w[i] - {low}[i] : w[i] > {high}[i] ? w[i] - {high}[i] : 0.0;
-    beyond += apart * apart;
-}}
-difficulty = softkin_neighbours(w, {points}, {len(node["points"])}, {n}, {neighbours}, best);
-if (difficulty > {emptiest}) difficulty = {emptiest};
-if (beyond > 0.0) difficulty = {emptiest} + sqrt(beyond);
-difficulty = {least} + difficulty / {unit};
-if (difficulty < {floor}) difficulty = {floor};"""
 
 
 def _growth(numbers: Node, tables: Tables, n: int) -> str:

@@ -14,6 +14,7 @@ from softkin.core.geometry import constant_curvature
 from softkin.models.plain import evaluate, kernels, spaces
 from softkin.uncertainty.export import face
 from softkin.uncertainty.export.numbers import LEVELS, exported_numbers
+from softkin.uncertainty.plain import near_errors
 from softkin.uncertainty.plain import robot as plain_robot
 
 #: Numbers at most of a Python file, 300 MB.
@@ -24,7 +25,7 @@ FUNCTIONS: tuple[Callable[..., Any], ...] = (
     constant_curvature._sinc,
     constant_curvature._sinc_slope,
 )
-MODULES: tuple[ModuleType, ...] = (kernels, evaluate, spaces, plain_robot, face)
+MODULES: tuple[ModuleType, ...] = (kernels, evaluate, spaces, near_errors, plain_robot, face)
 HEAD = '''"""{dataset}: {model}; written by softkin {version}. It needs numpy alone.
 
     from {name} import model

@@ -158,9 +158,8 @@ static inline int softkin_far(const double *z, const double *points, int n, int 
     return 1;
 }
 
-/* Mean distance to the k nearest points; best has room for k numbers. */
-static inline double softkin_neighbours(const double *z, const double *points, int n, int d, int k, double *best) {
-    double sum = 0.0;
+/* Squared distances to the k nearest points, ascending, into best. */
+static inline void softkin_nearest(const double *z, const double *points, int n, int d, int k, double *best) {
     int held = 0;
     for (int i = 0; i < n; i++) {
         double square = softkin_square(points + (size_t)i * (size_t)d, z, d);
@@ -170,8 +169,29 @@ static inline double softkin_neighbours(const double *z, const double *points, i
         for (; place > 0 && best[place - 1] > square; place--) best[place] = best[place - 1];
         best[place] = square;
     }
+}
+
+/* Mean distance to the k nearest points; best has room for k numbers. */
+static inline double softkin_neighbours(const double *z, const double *points, int n, int d, int k, double *best) {
+    double sum = 0.0;
+    softkin_nearest(z, points, n, d, k, best);
     for (int i = 0; i < k; i++) sum += sqrt(best[i]);
     return sum / k;
+}
+
+/* Mean of the errors at the k nearest points and those that are as near; best has room for k numbers. */
+static inline double softkin_near(const double *z, const double *points, const double *errors, int n, int d, int k,
+                                  double *best) {
+    double sum = 0.0, limit;
+    int count = 0;
+    softkin_nearest(z, points, n, d, k, best);
+    limit = best[k - 1] * (1.0 + 1e-9) + 1e-18;
+    for (int i = 0; i < n; i++)
+        if (softkin_square(points + (size_t)i * (size_t)d, z, d) <= limit) {
+            sum += errors[i];
+            count++;
+        }
+    return sum / count;
 }
 
 static inline int softkin_usable(const double *command, int n) {

@@ -16,6 +16,7 @@ from softkin.uncertainty.intervals import (
     shell,
     split_conformal_crepes,
     split_conformal_distance,
+    split_conformal_held_out,
     split_conformal_mapie,
     split_conformal_spread,
 )
@@ -30,6 +31,7 @@ INTERVAL_METHODS: dict[str, IntervalMethod[Any]] = {
     "cqr_asymmetric": conformalized_quantile_regression.ASYMMETRIC,
     "scp_distance": split_conformal_distance.METHOD,
     "scp_spread": split_conformal_spread.METHOD,
+    "scp_held_out": split_conformal_held_out.METHOD,
     "cps": conformal_predictive_system.METHOD,
     "gaussian": gaussian.METHOD,
     "cv_plus": cross_validation_plus.METHOD,

@@ -9,6 +9,7 @@ import numpy as np
 from softkin.models.plain.evaluate import regressor
 from softkin.models.plain.kernels import Node, Solver, Values
 from softkin.models.plain.spaces import space
+from softkin.uncertainty.plain.near_errors import near_errors
 
 Mask = np.ndarray[Any, np.dtype[np.bool_]]
 #: Distances between commands that are held at a time.
@@ -130,6 +131,8 @@ class PlainRobot:
             return np.asarray(np.maximum(spread + node["least"], node["floor"]))
         if node["kind"] == "distance":
             return self._distances(inputs[:, : self.numbers["n_commands"]])
+        if node["kind"] == "held_out":
+            return np.asarray(np.maximum(near_errors(node, inputs[:, : self.numbers["n_commands"]]), node["floor"]))
         return None
 
     def _distances(self, commands: Values) -> Values:

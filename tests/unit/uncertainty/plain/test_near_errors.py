@@ -1,0 +1,35 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from softkin.uncertainty.plain import near_errors as module
+from softkin.uncertainty.plain.near_errors import mean_of_nearest, near_errors, squared_distances
+from tests.exported_robots import NEW, hard_somewhere
+
+NUMBERS = hard_somewhere().known.difficulty.numbers  # type: ignore[attr-defined]
+
+
+def test_points_as_near_as_the_farthest_of_the_nearest_count_too() -> None:
+    squares, errors = np.array([[4.0, 1.0, 1.0 + 1e-12, 9.0]]), np.array([[8.0], [1.0], [3.0], [7.0]])
+    np.testing.assert_array_equal(mean_of_nearest(squares, errors, 1), [[2.0]])
+    np.testing.assert_array_equal(mean_of_nearest(squares, errors, 3), [[4.0]])
+
+
+def test_distances_between_commands_or_between_norms() -> None:
+    points, rows = np.array([[3.0, 4.0], [0.0, 0.0]]), np.array([[0.0, 5.0]])
+    np.testing.assert_array_equal(squared_distances(points, rows, False), [[10.0, 25.0]])
+    np.testing.assert_array_equal(squared_distances(points, rows, True), [[0.0, 25.0]])
+
+
+def test_rounding_of_commands_on_a_grid_changes_nothing() -> None:
+    on_grid = NUMBERS["points"] * NUMBERS["scale"] + NUMBERS["mean"]
+    shaken = on_grid * (1 + 1e-14 * np.random.default_rng(0).uniform(-1, 1, on_grid.shape))
+    np.testing.assert_allclose(near_errors(NUMBERS, shaken), near_errors(NUMBERS, on_grid), rtol=1e-12)
+
+
+def test_many_commands_are_answered_part_by_part(monkeypatch: pytest.MonkeyPatch) -> None:
+    whole = near_errors(NUMBERS, NEW)
+    monkeypatch.setattr(module, "HELD_AT_ONCE", 1000)
+    np.testing.assert_allclose(near_errors(NUMBERS, NEW), whole, rtol=1e-14)
+    assert near_errors(NUMBERS, NEW[:0]).shape == (0, 6)
