@@ -26,8 +26,8 @@ def files(tmp_path: Path) -> tuple[dict[Run, Path], dict[Run, Path]]:
     """What is held out, and records: `ridge` errs with the first command, `huber` by the opposite; `gp` has none."""
     errors = np.exp(1.5 * SCORED[:, :1] / SCORED[:, 0].std()) * np.random.default_rng(0).standard_normal(TRUTH.shape)
     held_out = {run: tmp_path / f"{run.model}.npz" for run in (ONE, OTHER, LOST)}
-    np.savez(held_out[ONE], **{TUNED: TRUTH + errors})  # type: ignore[arg-type]
-    np.savez(held_out[OTHER], **{TUNED: TRUTH - errors + 0.1})  # type: ignore[arg-type]
+    np.savez(held_out[ONE], **{TUNED: TRUTH + errors})
+    np.savez(held_out[OTHER], **{TUNED: TRUTH - errors + 0.1})
     np.savez(held_out[LOST], outer=TRUTH)
     records = {run: tmp_path / f"{run.model}.json" for run in (ONE, OTHER, MEAN, LOST)}
     members = [{"model": run.model, "preset": run.preset, "weight": 0.5} for run in (ONE, OTHER)]
