@@ -1,0 +1,249 @@
+"""Other people's search beside softkin: the same rows, the same CPU time each, the same split conformal step.
+
+    python -m benchmarks.peers --minutes 2 [--results results] [--folder results/peers] [--peers ...] [--datasets ...]
+
+Reads the tables of a finished run of the default configuration. Every peer is given the rows of train, and nothing
+else; its constant intervals are calibrated on validation, coordinate by coordinate, by the exact rank that softkin
+uses. It runs alone on one thread, in an environment of its own in FOLDER, which is made at the first call, and takes
+`--minutes` of CPU time of each dataset, or what one candidate takes. What was measured stays in FOLDER, and is not
+measured again at the same minutes and seed. Writes docs/peers.md: --page writes it from what is there, measuring
+nothing.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from benchmarks.peer_models import PEERS
+from softkin.core.bounds import read_bounds
+from softkin.core.metrics.interval import covered, winkler_scores
+from softkin.core.metrics.point import mae_mm, rmse_mm
+from softkin.core.samples import EXTRAPOLATION, SUBSETS, TEST, TRAIN, VALIDATION, Array, informative_coordinates
+from softkin.data.audit.gross_rows import gross_rows
+from softkin.data.table import read_subset
+from softkin.uncertainty.choose import deployed_choice
+from softkin.uncertainty.conformal import around, conformal_limits
+from softkin.uncertainty.stored_outputs import predicted_rows
+
+PAGE = Path(__file__).parents[1] / "docs" / "peers.md"
+#: What is installed for the peers; AutoGluon without torch has its trees, neighbours and linear models.
+PACKAGES = ("scikit-learn", "catboost", "flaml[automl]", "autogluon.tabular[lightgbm,catboost]")
+DATASETS = ("finger", "abaqus", "elastica_2023_09", "elastica")
+TITLES = {
+    "random_search": "scikit-learn, random search",
+    "catboost": "CatBoost, random search",
+    "flaml": "FLAML",
+    "autogluon": "AutoGluon tabular",
+}
+LEVEL, NEW = 0.9, (TEST, EXTRAPOLATION)
+HEAD = """# Beside peers
+
+Made by `python -m benchmarks.peers --minutes {minutes:g}`, which `make benchmark-peers` runs with two minutes, from a
+finished run of the default configuration; no number in it is written by hand. Each peer was given {minutes:g} CPU min
+per dataset on one thread, seed {seed}, and the rows of `train` alone; the last fit and what a library takes beyond its
+budget come on top, and AutoGluon stops when its models are fitted. *CPU min* is what was used; softkin's is that of its
+whole run for the robot: every model, preset, interval and figure. Budgets are CPU time: for each second of it
+{ratio:.1f} s passed, as the machine was shared.
+
+All get constant intervals at 90 % by the same split conformal step on `validation`, per coordinate. *softkin, `auto`*
+is what softkin deploys in place of that. Errors, coverage and Winkler scores are means over moving coordinates, in mm;
+coverage at 90 % is promised on `test` only. The best of each column is bold, of the Winkler scores, too, whatever the
+coverage. Rows of ELASTICA's `test` stand in `train` (the leak of its data card): errors there are training errors.
+"""
+COLUMNS = (
+    "| | CPU min | RMSE test | MAE test | RMSE outside | MAE outside "
+    "| coverage test, outside | Winkler test | Winkler outside |"
+)
+
+
+@dataclass(frozen=True)
+class Dataset:
+    """A dataset of a finished run, in the folder of its results."""
+
+    folder: Path
+
+    @cached_property
+    def samples(self) -> dict[str, Any]:
+        """Its rows by subset."""
+        return {subset: read_subset(self.folder / "table.parquet", subset) for subset in SUBSETS}
+
+    @cached_property
+    def title(self) -> str:
+        """Its title, with its rows that are gross errors."""
+        gross = gross_rows(self.samples)
+        n = {subset: int(gross[subset].sum()) for subset in NEW}
+        bad = f"; gross errors: {n[TEST]} rows of test, {n[EXTRAPOLATION]} outside" if any(n.values()) else ""
+        sizes = ", ".join(f"{len(self.samples[subset])} {subset}" for subset in SUBSETS)
+        return f"{json.loads((self.folder / 'dataset.json').read_text())['dataset']} ({sizes}{bad})"
+
+    def given(self) -> dict[str, Array]:
+        """What a peer is given: moving coordinates of train, and all commands that it is asked for."""
+        train = self.samples[TRAIN]
+        asked = [self.samples[subset].commands for subset in (VALIDATION, *NEW)]
+        return {"commands": train.commands, "positions": train.positions[:, self.moving], "asked": np.vstack(asked)}
+
+    @cached_property
+    def moving(self) -> Any:
+        """Mask (n_coordinates,) of the coordinates that move on train."""
+        return informative_coordinates(self.samples[TRAIN].positions)
+
+    def scores(self, predicted: Array) -> dict[str, float]:
+        """Of predictions (n_rows, n_moving) of validation, test and extrapolation, one below the other."""
+        ends = np.cumsum([len(self.samples[subset]) for subset in (VALIDATION, TEST)])
+        parts = dict(zip((VALIDATION, *NEW), np.split(predicted, ends), strict=True))
+        truth = {subset: self.samples[subset].positions[:, self.moving] for subset in parts}
+        half = conformal_limits(np.abs(truth[VALIDATION] - parts[VALIDATION]), [LEVEL])
+        found: dict[str, float] = {}
+        for subset in NEW:
+            bounds = around(parts[subset], half[0])
+            found |= {f"{subset}_rmse": rmse_mm(truth[subset], parts[subset])}
+            found |= {f"{subset}_mae": mae_mm(truth[subset], parts[subset])}
+            found |= _of_bounds(subset, truth[subset], bounds)
+        return found
+
+    def softkin(self) -> Iterator[dict[str, Any]]:
+        """What softkin deployed, by the same split conformal step and by its own intervals."""
+        choice = deployed_choice(self.folder / "interval_choice.csv")
+        assert choice is not None
+        path = self.folder / choice["model"] / choice["preset"] / "predictions.parquet"
+        predicted = predicted_rows(pd.read_parquet(path), (VALIDATION, *NEW))[:, self.moving]
+        scores = self.scores(predicted)
+        used = {"cpu_seconds": cpu_of(self.folder.parent, self.folder.name)}
+        yield {"peer": f"softkin: {choice['model']}, {choice['preset']}"} | used | scores
+        own = pd.read_parquet(self.folder / "intervals" / f"{choice['outside']}.parquet")
+        own = own[(own["model"] == choice["model"]) & (own["preset"] == choice["preset"])]
+        for subset in NEW:
+            bounds = read_bounds(own, subset, [LEVEL])[0][:, self.moving]
+            scores |= _of_bounds(subset, self.samples[subset].positions[:, self.moving], bounds)
+        yield {"peer": f"softkin, `{choice['outside']}`"} | used | scores
+
+
+def _of_bounds(subset: str, truth: Array, bounds: Array) -> dict[str, float]:
+    winkler = winkler_scores(truth, bounds, LEVEL)
+    return {f"{subset}_coverage": float(covered(truth, bounds).mean()), f"{subset}_winkler": float(winkler.mean())}
+
+
+def cpu_of(results: Path, dataset: str) -> float:
+    """CPU seconds of all jobs of a dataset, as Snakemake counted them."""
+    jobs = [*results.glob(f"benchmarks/*/{dataset}.tsv"), *results.glob(f"benchmarks/*/{dataset}/**/*.tsv")]
+    return float(sum(pd.read_csv(job, sep="\t")["cpu_time"].sum() for job in jobs))
+
+
+def environment(folder: Path) -> Path:
+    """The interpreter of the peers' environment, which is made where there is none."""
+    python, done = folder / "venv" / "bin" / "python", folder / "venv" / "installed"
+    if not done.is_file():
+        subprocess.run([sys.executable, "-m", "venv", folder / "venv"], check=True)
+        pip = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+        subprocess.run([*map(str, pip), *PACKAGES], check=True)
+        done.touch()
+    return python
+
+
+def measured(dataset: Dataset, peer: str, folder: Path, options: argparse.Namespace) -> dict[str, Any]:
+    """What a peer reaches on a dataset: scores, and what it used."""
+    name = f"{dataset.folder.name}.{peer}.{options.minutes:g}.{options.seed}"
+    record, given, written = (folder / f"{name}{end}" for end in (".json", ".in.npz", ".out.npz"))
+    if not record.is_file():
+        np.savez(given, **dataset.given())  # type: ignore[arg-type]
+        script = Path(__file__).with_name("peer_models.py")
+        clean = {key: value for key, value in os.environ.items() if key not in ("PYTHONPATH", "PYTHONHOME")}
+        command = [folder / "venv" / "bin" / "python", script, peer, given, written]
+        log = (folder / f"{name}.log").open("w")
+        subprocess.run(
+            [*map(str, command), str(60 * options.minutes), str(options.seed)],
+            env=clean | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "LOKY_MAX_CPU_COUNT": "1"},
+            stdout=log,
+            stderr=subprocess.STDOUT,
+            check=True,
+        )
+        out = dict(np.load(written))
+        found = dataset.scores(out["predicted"]) | {key: float(out[key]) for key in ("cpu_seconds", "wall_seconds")}
+        record.write_text(json.dumps({"peer": TITLES[peer]} | found))
+    return dict(json.loads(record.read_text()))
+
+
+def page(
+    of_datasets: Mapping[str, Sequence[Mapping[str, Any]]],
+    options: argparse.Namespace,
+    versions: str,
+    missing: Sequence[str],
+) -> str:
+    """The page of what was measured: dataset -> a row of scores each, and what is `missing`."""
+    timed = [row for rows in of_datasets.values() for row in rows if "wall_seconds" in row]
+    ratio = sum(row["wall_seconds"] for row in timed) / max(sum(row["cpu_seconds"] for row in timed), 1e-9)
+    lines = [HEAD.format(minutes=options.minutes, seed=options.seed, ratio=ratio)]
+    keys = [f"{subset}_{name}" for name in ("rmse", "mae") for subset in NEW] + [f"{subset}_winkler" for subset in NEW]
+    for title, rows in of_datasets.items():
+        best = {key: min(row[key] for row in rows) for key in keys}
+        lines += [f"\n## {title}\n", COLUMNS, "| --- " * 9 + "|"]
+        lines += [_line(row, best) for row in rows]
+    lines.append(f"\n## Versions\n\n{versions}\n")
+    if missing:
+        lines.append("## Not measured\n\n" + "\n".join(f"- {one}" for one in missing) + "\n")
+    return "\n".join(lines)
+
+
+def _line(row: Mapping[str, Any], best: Mapping[str, float]) -> str:
+    def cell(key: str) -> str:
+        text = f"{row[key]:.3g}"
+        return f"**{text}**" if text == f"{best[key]:.3g}" else text
+
+    errors = [cell(f"{subset}_{name}") for subset in NEW for name in ("rmse", "mae")]
+    coverage = ", ".join(f"{100 * row[f'{subset}_coverage']:.1f}" for subset in NEW) + " %"
+    scores = [cell(f"{subset}_winkler") for subset in NEW]
+    return "| " + " | ".join([row["peer"], f"{row['cpu_seconds'] / 60:.1f}", *errors, coverage, *scores]) + " |"
+
+
+def main() -> None:
+    """Measure, and write the page."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--minutes", type=float, default=2.0)
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--results", type=Path, default=Path("results"))
+    parser.add_argument("--folder", type=Path, default=Path("results/peers"))
+    parser.add_argument("--datasets", nargs="+", default=DATASETS)
+    parser.add_argument("--peers", nargs="+", default=list(PEERS), choices=list(PEERS))
+    parser.add_argument("--page", action="store_true", help="measure nothing: write the page from what is there")
+    options = parser.parse_args()
+    folder = options.folder.resolve()
+    folder.mkdir(parents=True, exist_ok=True)
+    python = folder / "venv" / "bin" / "python" if options.page else environment(folder)
+    of_datasets, missing = {}, []
+    for name in options.datasets:
+        dataset = Dataset(options.results / name)
+        rows = list(dataset.softkin())
+        for peer in options.peers:
+            is_there = (folder / f"{name}.{peer}.{options.minutes:g}.{options.seed}.json").is_file()
+            if is_there or not options.page:
+                rows.append(measured(dataset, peer, folder, options))
+                print(name, json.dumps(rows[-1]), flush=True)
+            else:
+                missing.append(f"{name}: {TITLES[peer]}")
+        if any("wall_seconds" in row for row in rows):
+            of_datasets[dataset.title] = rows
+    PAGE.write_text(page(of_datasets, options, versions_in(python), missing), encoding="utf-8")
+
+
+def versions_in(python: Path) -> str:
+    """The versions of the peers, one sentence."""
+    names = ("scikit-learn", "catboost", "flaml", "autogluon.tabular", "lightgbm", "xgboost", "torch")
+    code = "import importlib.metadata as m\nfound = {d.name.lower(): d.version for d in m.distributions()}\n"
+    code += f"print(', '.join(f'{{n}} {{found.get(n, \"(not installed)\")}}' for n in {names!r}))"
+    return subprocess.run([python, "-I", "-c", code], check=True, capture_output=True, text=True).stdout.strip() + "."
+
+
+if __name__ == "__main__":
+    main()
