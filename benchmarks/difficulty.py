@@ -71,12 +71,12 @@ def held_out_data(subsets: Mapping[str, Samples], model: str, points: PointCalib
     """Calibration data with the difficulty by errors on held-out folds of train, and CPU seconds that it took."""
     train, spec = subsets[TRAIN], MODELS[model]
     settings = FitSettings(spec.search_space(FixedTrial(dict(spec.first_trials[0]))), True, 0, 1)
-    errors = np.empty(train.positions.shape)
+    errors = np.empty_like(train.positions)
     for fitted, scored in folds_of(train, N_FOLDS, 0):
         estimator = fitted_model(spec, settings, train.take(fitted))
         errors[scored] = np.abs(train.positions[scored] - estimator.predict(train.commands[scored]))
     start = time.process_time()
-    difficulty = fit_difficulty(train.commands, errors, np.arange(errors.shape[1]))
+    difficulty = fit_difficulty(train.commands, errors, np.arange(train.positions.shape[1]))
     return HeldOutCalibration(**vars(points), difficulty=difficulty), time.process_time() - start
 
 

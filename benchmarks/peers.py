@@ -238,11 +238,11 @@ def main() -> None:
 
 
 def versions_in(python: Path) -> str:
-    """The versions of the peers, one sentence."""
+    """The versions of the peers, a line each."""
     names = ("scikit-learn", "catboost", "flaml", "autogluon.tabular", "lightgbm", "xgboost", "torch")
     code = "import importlib.metadata as m\nfound = {d.name.lower(): d.version for d in m.distributions()}\n"
-    code += f"print(', '.join(f'{{n}} {{found.get(n, \"(not installed)\")}}' for n in {names!r}))"
-    return subprocess.run([python, "-I", "-c", code], check=True, capture_output=True, text=True).stdout.strip() + "."
+    code += f"print('\\n'.join(f'- {{n}} {{found.get(n, \"(not installed)\")}}' for n in {names!r}))"
+    return subprocess.run([python, "-I", "-c", code], check=True, capture_output=True, text=True).stdout.strip()
 
 
 if __name__ == "__main__":
