@@ -29,7 +29,7 @@ endif
 .PHONY: gallery numbers results-page single-rows
 .PHONY: snakemake-report campaigns campaign-slurm coverage standins timings benchmark benchmark-large benchmark-pruning benchmark-shells
 .PHONY: benchmark-figures benchmark-two-files benchmark-commands benchmark-many-robots benchmark-recalibration benchmark-choice benchmark-promises
-.PHONY: benchmark-latency latency-page benchmark-inverse benchmark-difficulty benchmark-peers
+.PHONY: benchmark-latency latency-page benchmark-inverse benchmark-difficulty benchmark-peers benchmark-suggest
 .PHONY: environment clean ui-screenshot bad-inputs-page faults-page
 
 # These targets, each with the first sentence of the comment above it.
@@ -212,6 +212,10 @@ latency-page: .venv/installed
 # Commands for targets, beside the damped least squares of the dataset's authors; sent to simulated robots.
 benchmark-inverse: .venv/installed
 	$(BIN)/python -m benchmarks.inverse $${SOFTKIN_DATA_MIRROR:+"$$SOFTKIN_DATA_MIRROR"}
+
+# How many suggested commands teach a model as much as 50 and 100 random ones, on simulated robots.
+benchmark-suggest: .venv/installed
+	$(BIN)/python -m benchmarks.suggest
 
 # Whether the figures of a robot of 100,000 rows stay under 500 MB.
 benchmark-figures: .venv/installed
