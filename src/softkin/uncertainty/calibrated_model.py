@@ -116,8 +116,7 @@ class CalibratedModel(Inverse, Suggestions):
             DataError: a number of poses that is not taken, poses in extrapolation, or poses that contradict each other.
         """
         errors, spread = labelled_errors(self, commands, positions), zero_spread(self.estimator)
-        known = self._residuals(), errors, self._moving(), spread, self.dataset
-        found = recalibration(*known, self.names.unit)
+        found = recalibration(self._residuals(), errors, self._moving(), spread, self.dataset, self.names.unit)
         return replace(self, recalibration=found)
 
     def watch(self, rate: float = 0.01, session: int | None = None, seed: int = 0) -> Watch:

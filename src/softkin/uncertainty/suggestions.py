@@ -13,6 +13,7 @@ from scipy.stats import qmc
 
 from softkin.core.errors import ConfigError, DataError
 from softkin.core.samples import Array, command_columns, informative_coordinates
+from softkin.core.units import own_unit
 from softkin.uncertainty import calls
 
 #: Commands that suggestions are taken from: as many as this, or as this multiple of the suggestions.
@@ -38,7 +39,8 @@ class Suggestions:
         Columns: the commands by the robot's own names, else (or where these are names of other columns) u1, u2, ...;
         `distance` to the nearest command of `train` or suggested before, each command in units of its range on `train`;
         `width_mm`, the mean width of the intervals of moving coordinates there, as the model is now, of a robot that
-        remembers from rest; `outside`, the command lies in extrapolation: whether the robot can take it nothing says.
+        remembers from rest; `outside`, the command lies in extrapolation: whether the robot can take it nothing says;
+        `unit` of the width, where it is not mm.
 
         Parameters:
             n_rows: how many, from 1 to 10,000.
@@ -58,11 +60,12 @@ class Suggestions:
         places, distances = farthest((self.train.commands - lower) / width, (candidates - lower) / width, n_rows)
         commands = candidates[places]
         bounds = np.asarray(self.intervals(commands, level))[:, informative_coordinates(self.train.positions)]
-        told = {
+        told: dict[str, Any] = {
             "distance": distances,
             "width_mm": (bounds[..., 1] - bounds[..., 0]).mean(axis=1),
             "outside": np.asarray(self.is_outside(commands)),
         }
+        told |= own_unit(self.names.unit)
         own = list(self.names.own_commands)
         names = own if own and not set(own) & set(told) else command_columns(commands.shape[1])
         return pd.DataFrame(commands, columns=names).assign(**told)

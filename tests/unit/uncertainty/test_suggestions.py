@@ -116,6 +116,11 @@ def test_names_of_other_columns_are_no_names_of_commands() -> None:
     assert list(robot.suggest(3)) == ["u1", "u2", "distance", "width_mm", "outside"]
 
 
+def test_another_unit_is_named() -> None:
+    robot = replace(small_robot(), about={"unit": "px"})
+    assert (robot.suggest(3)["unit"] == "px").all()
+
+
 def test_a_robot_that_remembers_is_asked_from_rest() -> None:
     table = remembering().suggest(5)
     bounds = remembering().intervals(table[["u1", "u2"]].to_numpy(), 0.9)
