@@ -6,7 +6,7 @@ The entry names the columns (a list, or a pattern), the number of coordinates pe
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -43,8 +43,7 @@ def read(
 ) -> dict[str, Samples]:
     """Samples per subset, rows in the order of the file, positions in its own unit; planar ones get a third
     coordinate 0. `counts` gets what was left out, by the names of `complete_rows.COUNTED`, as the entry asks for it;
-    `own_columns` what the columns of `commands` and `positions` are called, how many `dimensions` a marker has, and the
-    `unused_columns`, of which the entry names none.
+    `own_columns` the names of `commands`, `positions` and `unused_columns`, and the `dimensions` of a marker.
 
     Memory is computed before rows are left out, and not across a row whose command is missing.
 
@@ -58,10 +57,7 @@ def read(
         chosen = [*commands, *coordinates]
         names = [table.names[place] for place in chosen]
         n_commands, dimensions = len(commands), source.get("dimensions", 3)
-        used = {*chosen, *named.values()}
-        unused = [name for place, name in enumerate(table.names) if place not in used]
-        about = {"commands": names[:n_commands], "positions": names[n_commands:], columns.UNUSED: unused}
-        _tell(own_columns, dimensions=dimensions, **about)
+        _tell(own_columns, dimensions=dimensions, **_named(table.names, chosen, n_commands, named.values()))
         missing = source.get("missing", REFUSE)
         others = [place for place in dict.fromkeys(named.values()) if place not in chosen]
         values, read_others = table.read(chosen, others, gaps=missing != REFUSE)
@@ -102,6 +98,14 @@ def read(
         logger.warning("%s", DataError(what, where=where, fix=fix))
     del values
     return _by_subset(samples, subset_of)
+
+
+def _named(names: Sequence[str], chosen: Sequence[int], n_commands: int, others: Iterable[int]) -> dict[str, Any]:
+    """What columns of commands and of positions are called, and those of which the entry names none."""
+    used = {*chosen, *others}
+    unused = [name for place, name in enumerate(names) if place not in used]
+    of_robot = [names[place] for place in chosen]
+    return {"commands": of_robot[:n_commands], "positions": of_robot[n_commands:], columns.UNUSED: unused}
 
 
 def _tell(somebody: Told, **what: Any) -> None:
