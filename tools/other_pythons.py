@@ -2,7 +2,7 @@
 
 python -m tools.other_pythons 3.12 3.13
 
-Of each: its environment is installed, the workflow is planned, and the tests of `core` run.
+Of each: its environment is installed, the workflow is planned, and the tests of `core` run; of all side by side.
 """
 
 from __future__ import annotations
@@ -14,29 +14,37 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from subprocess import PIPE, STDOUT
 
 HOUSE = Path(__file__).resolve().parents[1]
 #: What the tests of `core` need besides the environment of a run.
 TESTING = ("pytest", "pytest-timeout", "hypothesis")
 ASK = "import sys; print('.'.join(map(str, sys.version_info[:2])))"
-PIP = ("-m", "pip", "--quiet", "--disable-pip-version-check", "install")
+#: What is not imported need not be compiled.
+PIP = ("-m", "pip", "--quiet", "--disable-pip-version-check", "install", "--no-compile")
 
 
 def main(versions: Sequence[str], house: Path = HOUSE) -> int:
     """Try each version; the exit code is 1 where one of those that are there failed."""
-    failed = []
-    for version in versions:
-        python = interpreter(version)
-        if python is None:
-            print(f"Python {version} is not on this machine", flush=True)
-            continue
-        started = time.monotonic()
-        command = first_that_fails(python, house / ".venv" / f"python{version}", house)
-        seconds = f"{time.monotonic() - started:.0f} s"
-        print(f"Python {version} {f'failed: {command}' if command else 'works'} ({seconds})", flush=True)
-        failed += [version] * bool(command)
-    return int(bool(failed))
+    with ThreadPoolExecutor() as pool:
+        failures = list(pool.map(lambda version: _failed(version, house), versions))
+    return int(any(failures))
+
+
+def _failed(version: str, house: Path) -> bool:
+    """Try a version, and say how that ended."""
+    python = interpreter(version)
+    if python is None:
+        print(f"Python {version} is not on this machine", flush=True)
+        return False
+    started = time.monotonic()
+    command, output = first_that_fails(python, house / ".venv" / f"python{version}", house)
+    seconds = f"{time.monotonic() - started:.0f} s"
+    said = f"Python {version} {f'failed: {command}' if command else 'works'} ({seconds})"
+    print("\n".join([said, *output.splitlines()]), flush=True)
+    return bool(command)
 
 
 def interpreter(version: str, environment: Mapping[str, str] = os.environ) -> Path | None:
@@ -50,12 +58,17 @@ def interpreter(version: str, environment: Mapping[str, str] = os.environ) -> Pa
     return None
 
 
-def first_that_fails(python: Path, place: Path, house: Path) -> str:
-    """Run all that is tried with an interpreter, in an environment at `place`; the command that fails, or nothing."""
+def first_that_fails(python: Path, place: Path, house: Path) -> tuple[str, str]:
+    """Run all that is tried with an interpreter, in an environment at `place`; the command that fails and its output,
+    or nothing.
+    """
     for command in commands(python, place, house):
-        if subprocess.run(command, cwd=house, env=_environment(house), check=False).returncode != 0:
-            return " ".join(command)
-    return ""
+        done = subprocess.run(
+            command, cwd=house, env=_environment(house), text=True, stdout=PIPE, stderr=STDOUT, check=False
+        )
+        if done.returncode != 0:
+            return " ".join(command), done.stdout
+    return "", ""
 
 
 def commands(python: Path, place: Path, house: Path) -> Iterator[list[str]]:
