@@ -153,7 +153,7 @@ benchmark: .venv/installed
 
 # Whether intervals cover what they say, over random re-splits of a finished run.
 coverage: .venv/installed
-	$(BIN)/python benchmarks/coverage.py
+	$(BIN)/python -m benchmarks.coverage
 
 # Whether a robot of a million rows goes through prepare and audit in a minute and 2 GB.
 benchmark-large: .venv/installed

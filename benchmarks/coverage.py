@@ -1,6 +1,6 @@
 """Mean coverage of every method over random re-splits of validation and test, beside its theoretical value.
 
-    python benchmarks/coverage.py [--results results] [--splits 200] [--seed 0] [--datasets finger ...]
+    python -m benchmarks.coverage [--results results] [--splits 200] [--seed 0] [--datasets finger ...]
 
 Reads the stored outputs of a finished run. For each dataset, every method and region with an exact law, around the
 paper's gradient boosting and the chosen model, and each level, the rows of `validation` and `test` are pooled and split
@@ -23,15 +23,17 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from benchmarks.finished_studies import record_of, studies_of
 from softkin.core.metrics.interval import covered
 from softkin.core.runs import Run
 from softkin.core.samples import SUBSETS, TEST, TRAIN, VALIDATION, Array, informative_coordinates
 from softkin.data.table import read_subset
 from softkin.evaluation.score_regions import moving_residuals
 from softkin.models.spec import PAPERS_RUN
-from softkin.uncertainty.calibration_data import QuantileCalibration, SpreadCalibration
-from softkin.uncertainty.choose import Resplittable
+from softkin.uncertainty.calibration_data import HeldOutCalibration, QuantileCalibration, SpreadCalibration
+from softkin.uncertainty.choose import Resplittable, deployed_choice
 from softkin.uncertainty.conformal import conformal_rank
+from softkin.uncertainty.held_out_errors import difficulties
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from softkin.uncertainty.intervals.spec import MARGINAL
 from softkin.uncertainty.regions import REGION_METHODS
@@ -47,8 +49,15 @@ def outputs_of(folder: Path) -> StoredOutputs:
         Run(path.parts[-3], path.parts[-2]): path for path in sorted(folder.glob("quantiles/*/*/quantiles.parquet"))
     }
     predictions = {Run(path.parts[-3], path.parts[-2]): path for path in sorted(folder.glob("*/*/predictions.parquet"))}
+    deployed = deployed_choice(folder / "interval_choice.csv")
+    runs = [] if deployed is None else [Run(deployed["model"], deployed["preset"])]
     return StoredOutputs(
-        folder / "table.parquet", predictions=predictions, quantiles=quantiles, refits=None, confidence_levels=LEVELS
+        folder / "table.parquet",
+        predictions=predictions,
+        quantiles=quantiles,
+        refits=None,
+        confidence_levels=LEVELS,
+        difficulties=difficulties(*studies_of(folder), {run: record_of(folder, run) for run in runs}),
     )
 
 
@@ -66,6 +75,8 @@ def pooled(data: Resplittable, truth: Array, n_test: int, moving: NDArray[np.boo
     if isinstance(pool, SpreadCalibration):
         spread = np.concatenate([pool.calibration_spread, pool.new_spread[:n_test]])
         return replace(pool, train_spread=pool.train_spread[:, moving], calibration_spread=spread[:, moving])
+    if isinstance(pool, HeldOutCalibration):
+        return replace(pool, difficulty=replace(pool.difficulty, column=pool.difficulty.column[moving]))
     return pool
 
 

@@ -26,18 +26,16 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-import yaml
 from optuna.trial import FixedTrial
 
 from benchmarks.choice import INSIDE, LEVEL, data_of, simulated, uneven
+from benchmarks.finished_studies import record_of, studies_of
 from softkin.core.folds import folds_of
 from softkin.core.metrics.interval import coverage_band, covered, typical_winkler, widths, winkler_scores
-from softkin.core.runs import TUNED, Run
+from softkin.core.runs import Run
 from softkin.core.samples import TEST, TRAIN, VALIDATION, Array, Samples
 from softkin.data.standins import STANDINS
-from softkin.data.table import read_subset
 from softkin.models import MODELS
-from softkin.training.held_out import PartSettings
 from softkin.training.kinematic_model import FitSettings, fitted_model
 from softkin.uncertainty.calibration_data import HeldOutCalibration, PointCalibration
 from softkin.uncertainty.choose import deployed_choice, held_out_scores
@@ -129,15 +127,8 @@ def inner_splits(folder: Path) -> Iterator[dict[str, Any]]:
     """A row per split of the held-out errors of a dataset's deployed run, and method."""
     choice = deployed_choice(folder / "interval_choice.csv")
     assert choice is not None
-    run, train = Run(choice["model"], choice["preset"]), read_subset(folder / "table.parquet", TRAIN)
-    tuning = yaml.safe_load((Path(__file__).parents[1] / "config" / "config.yaml").read_text(encoding="utf-8"))[
-        "tuning"
-    ]
-    parts = {key: tuning[key] for key in ("n_folds", "max_rows", "max_markers")}
-    settings = PartSettings(**parts, core_shares=(), scores={TUNED}, seed=0)
-    stored = {Run(*path.parts[-3:-1]): path for path in folder.glob("*/*/held_out.npz")}
-    record = {run: folder / run.model / run.preset / "fit.json"}
-    commands, errors = held_out_errors(train, settings, stored, record)[run]
+    run = Run(choice["model"], choice["preset"])
+    commands, errors = held_out_errors(*studies_of(folder), {run: record_of(folder, run)})[run]
     n = len(commands)
     for seed in range(30):
         fitted, known, new = np.split(np.random.default_rng(seed).permutation(n), [int(0.6 * n), int(0.75 * n)])
