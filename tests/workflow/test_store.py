@@ -96,6 +96,7 @@ def without_its_store(house: House, work: Path) -> House:
     return House(house.root, work, house.mirror)
 
 
+@pytest.mark.slow
 def test_the_store_is_made_again_from_results_with_the_same_content(house: House, tmp_path: Path) -> None:
     recipe = re.search(r"^store:.*\n\t\$\(BIN\)/snakemake --cores \"\$\$CORES\" (.*)$",
                        (HOUSE / "Makefile").read_text(), re.MULTILINE)  # fmt: skip

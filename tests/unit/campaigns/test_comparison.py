@@ -56,7 +56,9 @@ def test_a_model_that_is_better_is_no_alarm() -> None:
     assert WORSE not in {one.outcome for one in found}
 
 
-@pytest.mark.parametrize("same_rows", [True, False], ids=["same rows", "other rows"])
+@pytest.mark.parametrize(
+    "same_rows", [True, pytest.param(False, marks=pytest.mark.slow)], ids=["same rows", "other rows"]
+)
 def test_nights_in_which_only_noise_changes_alarm_in_one_of_twenty_at_most(same_rows: bool) -> None:
     """200 nights, each compared with the one before; the bound is the upper 1 % point of as many alarms at 5 %."""
     tolerances = Tolerances(resamples=499, error=0.0, coverage=0.0, width=0.0)

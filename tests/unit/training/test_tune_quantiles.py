@@ -32,7 +32,7 @@ def test_coordinates_are_few_moving_and_spread_over_the_robot() -> None:
 @pytest.mark.parametrize("name", QUANTILE_MODELS)
 def test_the_loss_prefers_the_quantiles_of_the_noise(name: str) -> None:
     """Eighty trees beat two; the loss is in mm."""
-    rows = bending_arm(300)
+    rows = bending_arm(120)
     folds = grouped_folds(rows.commands, 2, 0)
     spec = QUANTILE_MODELS[name]
     good, poor = (

@@ -21,7 +21,9 @@ def test_every_method_answers_in_one_shape_and_levels_are_nested(method: str) ->
         assert (np.diff(answer.half_widths, axis=0) >= 0).all()
 
 
-@pytest.mark.parametrize("method", ["oracle", "few_labels", "few_labels_distance", "weighted"])
+@pytest.mark.parametrize(
+    "method", [pytest.param("oracle", marks=pytest.mark.slow), "few_labels", "few_labels_distance", "weighted"]
+)
 def test_coverage_in_domain_is_what_is_guaranteed(method: str) -> None:
     """300 draws in which new rows are like the calibration rows."""
     shares = []
