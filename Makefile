@@ -60,9 +60,9 @@ new-robot: .venv/installed
 	@$(BIN)/python -m softkin.cli.new_robot $${NAME:+--name="$$NAME"} $${HEADER:+--header="$$HEADER"} $${DELIMITER:+--delimiter="$$DELIMITER"} \
 	  $${SHEET:+--sheet="$$SHEET"} $${JOIN:+--join="$$JOIN"} $${ANSWER:+--answer="$$ANSWER"} $${WRITE:+--write} -- "$$FILE" $${POSITIONS:+"$$POSITIONS"}
 
-# All tests but the long ones. Two of the three parts at a time: those of the workflow wait for one run of it.
+# All tests but the long ones. Three parts side by side: those of the workflow wait for processes a third of the time.
 test: .venv/installed-dev
-	$(MAKE) --no-print-directory -j 2 test-workflow test-units test-contracts
+	$(MAKE) --no-print-directory -j 3 test-workflow test-units test-contracts
 
 # The tests that run the workflow.
 test-workflow: .venv/installed-dev
