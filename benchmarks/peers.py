@@ -161,14 +161,14 @@ def measured(dataset: Dataset, peer: str, folder: Path, options: argparse.Namesp
         script = Path(__file__).with_name("peer_models.py")
         clean = {key: value for key, value in os.environ.items() if key not in ("PYTHONPATH", "PYTHONHOME")}
         command = [folder / "venv" / "bin" / "python", script, peer, given, written]
-        log = (folder / f"{name}.log").open("w")
-        subprocess.run(
-            [*map(str, command), str(60 * options.minutes), str(options.seed)],
-            env=clean | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "LOKY_MAX_CPU_COUNT": "1"},
-            stdout=log,
-            stderr=subprocess.STDOUT,
-            check=True,
-        )
+        with (folder / f"{name}.log").open("w") as log:
+            subprocess.run(
+                [*map(str, command), str(60 * options.minutes), str(options.seed)],
+                env=clean | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "LOKY_MAX_CPU_COUNT": "1"},
+                stdout=log,
+                stderr=subprocess.STDOUT,
+                check=True,
+            )
         out = dict(np.load(written))
         found = dataset.scores(out["predicted"]) | {key: float(out[key]) for key in ("cpu_seconds", "wall_seconds")}
         record.write_text(json.dumps({"peer": TITLES[peer]} | found))

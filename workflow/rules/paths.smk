@@ -50,7 +50,7 @@ SEARCHED_PRESETS = [preset for preset in config["presets"] if preset in SEARCHED
 
 # Each file is held against these, and there are hundreds of a dataset: a list of a thousand names would be read each time.
 wildcard_constraints:
-    dataset="(?!(?:tables|logs|benchmarks|studies|studies_before_refit|manifest|schedules)/)[a-z][a-z0-9_]*",
+    dataset="(?!(?:tables|logs|benchmarks|studies|studies_before_refit|manifest|schedules|peers)/)[a-z][a-z0-9_]*",
     model="|".join(MODELS),
     ensemble="|".join(ENSEMBLES),
     preset="|".join(PRESETS),

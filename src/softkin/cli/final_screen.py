@@ -73,9 +73,11 @@ def _links(made: Collection[Path], datasets: Sequence[str], folder: Path) -> Ite
     logged = {name: RESULTS / name / "mlflow_runs.json" for name in datasets}
     found = {name: read_json(folder / file).get("link") for name, file in logged.items() if file in made}
     links = {name: link for name, link in found.items() if link}
+    if not links:
+        return
+    base, width = ui_address(read_json(folder / STORE)["tracking_uri"]), max(map(len, links))
     for name, link in links.items():
-        base = ui_address(read_json(folder / STORE)["tracking_uri"])
-        yield f"    {name:<{max(map(len, links))}}  {base}{link}"
+        yield f"    {name:<{width}}  {base}{link}"
 
 
 class AtMessage(logging.Handler):

@@ -16,7 +16,7 @@ from softkin.core.errors import DataError
 from softkin.core.samples import Array
 from softkin.core.units import MM_PER_UNIT
 from softkin.data import split
-from softkin.data.readers.columns import axis_of, marker_by_marker, unit_of
+from softkin.data.readers.columns import ORIENTATION_WORDS, axis_of, marker_by_marker, unit_of
 from softkin.data.readers.memory_table import Table
 from softkin.data.readers.table_formats import open_table
 from softkin.data.recordings import check_placed, recording_of
@@ -26,8 +26,7 @@ WORDS = {
     "subset": "subset split",
     "group": "group trial run episode sequence session trajectory experiment repetition",
     "time": "t time timestamp stamp datetime date",
-    "no position": "roll pitch yaw rpy quaternion quat gyro omega angular rot rotation angle orientation euler vel"
-    " velocity acc",
+    "no position": f"{ORIENTATION_WORDS} gyro omega angular angle vel velocity acc",
     "ignored": "index idx id row frame sample n no qx qy qz qw",
     "command": "u p q cmd command act actuation actuator input pressure chamber tendon cable force tension motor torque"
     " voltage current servo valve spool setpoint control",

@@ -17,7 +17,7 @@ from softkin.data.reachability import SUFFIX
 from softkin.data.readers.columns import MAX_COMMANDS
 
 #: Folders of results/ that are no dataset's.
-RESERVED = ("tables", "logs", "benchmarks", "studies", "studies_before_refit", "manifest", "schedules", "demo")
+RESERVED = ("tables", "logs", "benchmarks", "studies", "studies_before_refit", "manifest", "schedules", "peers", "demo")
 #: Experiments of MLflow that are no dataset's, each of which has one of its name.
 EXPERIMENTS = ("campaigns", "champions", "history")
 #: The format of a stand-in's file, which has no entry.

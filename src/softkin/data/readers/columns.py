@@ -14,12 +14,9 @@ MAX_COMMANDS = 256
 UNUSED, ORIENTATION = "unused_columns", "orientation_columns"
 #: From more on it is said what they cost.
 MANY_COMMANDS = 64
-_ORIENTATION = frozenset(
-    (
-        *("roll", "pitch", "yaw", "rpy", "quaternion", "quat", "qx", "qy", "qz", "qw"),
-        *("rotation", "rot", "orientation", "euler"),
-    )
-)
+#: Words of a column's name that say an orientation.
+ORIENTATION_WORDS = "roll pitch yaw rpy quaternion quat rotation rot orientation euler"
+_ORIENTATION = frozenset([*ORIENTATION_WORDS.split(), "qx", "qy", "qz", "qw"])
 _AXIS = re.compile(r"(?<![A-Za-z])[xyz](?![A-Za-z])|(?<![A-Z])[XYZ](?![A-Za-z])")
 _UNIT = re.compile(r"[\[(_ .](mm|cm|m|in|px|pixels?)[\])]?$")
 
