@@ -21,6 +21,7 @@ import pandas as pd
 import yaml
 
 from benchmarks.measured_run import measured_run, snakemake
+from benchmarks.utilisation import jobs
 from softkin.core.geometry.constant_curvature import from_arcs
 from softkin.core.samples import command_columns, coordinate_columns
 
@@ -57,16 +58,6 @@ def write_robot(folder: Path, n_rows: int, n_commands: int) -> Path:
     return configuration
 
 
-def jobs(benchmarks: Path) -> pd.DataFrame:
-    """Wall and CPU seconds and largest memory (GB) of each benchmarked job, from Snakemake's own files."""
-    rows = []
-    for path in benchmarks.rglob("*.tsv"):
-        job = pd.read_csv(path, sep="\t", na_values="-").iloc[0]
-        name = path.relative_to(benchmarks).with_suffix("").as_posix()
-        rows.append({"job": name, "wall_s": job["s"], "cpu_s": job["cpu_time"], "gigabytes": job["max_rss"] / 1024})
-    return pd.DataFrame(rows).round(2)
-
-
 def measure(folder: Path, n_commands: int, options: argparse.Namespace) -> bool:
     """Run the workflow on one robot and print what it took; whether it stayed within the limits."""
     configuration = write_robot(folder, options.rows, n_commands)
@@ -76,10 +67,12 @@ def measure(folder: Path, n_commands: int, options: argparse.Namespace) -> bool:
         f"{n_commands} commands, {options.rows} rows: {run.wall:.0f} s, {run.cpu:.0f} s of CPU, "
         f"{run.gigabytes:.2f} GB at most, exit status {run.status}"
     )
-    table = jobs(folder / "results" / "benchmarks")
-    for column, count in (("wall_s", 8), ("gigabytes", 4)):
+    if run.status:
+        return False
+    table = jobs(folder / "results").round(2)
+    for column, count in (("wall_s", 8), ("memory_mb", 4)):
         print(table.nlargest(count, column).to_string(index=False), flush=True)
-    return run.status == 0 and run.wall <= 60 * options.minutes and run.gigabytes <= options.gigabytes
+    return run.wall <= 60 * options.minutes and run.gigabytes <= options.gigabytes
 
 
 def main() -> int:

@@ -27,6 +27,7 @@ import numpy as np
 import pandas as pd
 
 from benchmarks.peer_models import PEERS
+from benchmarks.utilisation import jobs
 from softkin.core.bounds import read_bounds
 from softkin.core.metrics.interval import covered, winkler_scores
 from softkin.core.metrics.point import mae_mm, rmse_mm
@@ -136,9 +137,9 @@ def _of_bounds(subset: str, truth: Array, bounds: Array) -> dict[str, float]:
 
 
 def cpu_of(results: Path, dataset: str) -> float:
-    """CPU seconds of all jobs of a dataset, as Snakemake counted them."""
-    jobs = [*results.glob(f"benchmarks/*/{dataset}.tsv"), *results.glob(f"benchmarks/*/{dataset}/**/*.tsv")]
-    return float(sum(pd.read_csv(job, sep="\t")["cpu_time"].sum() for job in jobs))
+    """CPU seconds of all jobs of a dataset, as each read them off the system's clock."""
+    run = jobs(results)
+    return float(run.loc[[dataset in Path(job).parts for job in run["job"]], "cpu_s"].sum())
 
 
 def environment(folder: Path) -> Path:

@@ -2,8 +2,9 @@
 
     python -m tools.timings [--folder .] [--file resources/timings.csv]
 
-`folder` is where the run was made: jobs are those of results/logs, their seconds those of results/benchmarks, and where
-a rule has no benchmark those of Snakemake's own records. Make the run alone on its machine, from nothing.
+`folder` is where the run was made: jobs are those of results/logs, and CPU seconds what each says there that it used.
+Wall seconds are those of results/benchmarks, and where a rule has no benchmark those of Snakemake's own records. Make
+the run alone on its machine, from nothing.
 """
 
 from __future__ import annotations
@@ -14,12 +15,12 @@ import sys
 from pathlib import Path
 
 from softkin.cli.watching.timings import ANY, Timing, benchmark_row
+from softkin.core.clocks import used_by_log
 from softkin.core.errors import SoftkinError
 from softkin.core.files import read_json, replacing
 
 LOGS, BENCHMARKS = Path("results") / "logs", Path("results") / "benchmarks"
 RECORDS = Path(".snakemake") / "metadata"
-UNKNOWN = "-"
 
 
 def write_timings(folder: Path, file: Path) -> int:
@@ -47,8 +48,8 @@ def _timing(folder: Path, log: Path, recorded: dict[str, float]) -> Timing:
     row = benchmark_row(folder / BENCHMARKS / place)
     if row is None and str(log) not in recorded:
         raise SoftkinError("this job was not timed", where=folder / log, fix="delete results, and run it all again")
-    wall, cpu = (row["s"], row["cpu_time"]) if row else (recorded[str(log)], UNKNOWN)
-    return Timing(rule, dataset, model, f"{float(wall):.1f}", "" if cpu == UNKNOWN else f"{float(cpu):.1f}")
+    wall, used = row["s"] if row else recorded[str(log)], used_by_log(folder / log)
+    return Timing(rule, dataset, model, f"{float(wall):.1f}", f"{used.cpu_seconds:.1f}" if used else "")
 
 
 def _recorded(records: Path) -> dict[str, float]:

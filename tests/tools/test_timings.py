@@ -7,9 +7,10 @@ from pathlib import Path
 import pytest
 
 from softkin.cli.watching.timings import Timings
+from softkin.core.clocks import Used
 from tools.timings import main
 
-BENCHMARK = "s\th:m:s\tmax_rss\tcpu_time\n{}\t0:00:03\t214.98\t{}\n"
+BENCHMARK = "s\th:m:s\tmax_rss\tcpu_time\n{}\t0:00:03\t214.98\t1.5\n"
 
 
 def write(path: Path, text: str = "") -> None:
@@ -22,12 +23,12 @@ def run(tmp_path: Path) -> Path:
     """A finished run: a study, a fit, a report and a preparation without benchmark, whose two outputs are recorded."""
     results = tmp_path / "run" / "results"
     for job, seconds, cpu in (
-        ("tune/finger/gp", "31.44", "29.5"),
-        ("fit_quantiles/finger/gb/tuned", "2.5", "-"),
-        ("build_report", "9.26", "8.04"),
+        ("tune/finger/gp", "31.44", 29.5),
+        ("fit_quantiles/finger/gb/tuned", "2.5", None),
+        ("build_report", "9.26", 8.04),
     ):
-        write(results / "logs" / f"{job}.log")
-        write(results / "benchmarks" / f"{job}.tsv", BENCHMARK.format(seconds, cpu))
+        write(results / "logs" / f"{job}.log", f"INFO {Used(cpu, 1.0, 200.0)}\n" if cpu else "")
+        write(results / "benchmarks" / f"{job}.tsv", BENCHMARK.format(seconds))
     write(results / "logs" / "prepare" / "finger.log")
     for name, end in (("first", 101.0), ("second", 103.5)):
         record = {"rule": "prepare", "log": ["results/logs/prepare/finger.log"], "starttime": 100.0, "endtime": end}

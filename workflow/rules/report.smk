@@ -8,7 +8,7 @@ rule build_report:
         card_pages=of_every_dataset("results/{dataset}/data_card.md"),
         figures=of_every_dataset("results/{dataset}/figures"),
         campaign_figures="results/tables/figures",
-        benchmarks=[benchmark for _, benchmark, _ in timed_jobs()],
+        benchmarks=[f"results/benchmarks/{place}.tsv" for _, place, _ in timed_jobs()],
     output:
         report(
             REPORT,

@@ -1,6 +1,7 @@
 # Which jobs are timed, and where their times and records are: the report shows them.
 def timed_jobs():
-    """[rule, dataset, model] (empty: all of them), benchmark and records of each job that is timed."""
+    """[rule, dataset, model] (empty: all of them), place and records of each job that is timed: its benchmark is
+    results/benchmarks/<place>.tsv, its log results/logs/<place>.log."""
     per_model = {
         "fit_model": (
             "models",
@@ -20,20 +21,19 @@ def timed_jobs():
     for dataset in config["datasets"]:
         for stage, (key, records) in per_model.items():
             for model in configured(key, dataset) * bool(records):
-                benchmark = f"results/benchmarks/{stage}/{dataset}/{model}.tsv"
                 names = {"dataset": dataset, "model": model}
                 names |= {"ensemble": model, "quantile_model": model}
                 jobs.append(
-                    ([stage, dataset, model], benchmark, expand(records, **names))
+                    (
+                        [stage, dataset, model],
+                        f"{stage}/{dataset}/{model}",
+                        expand(records, **names),
+                    )
                 )
         for stage in per_dataset:
-            jobs.append(
-                ([stage, dataset, ""], f"results/benchmarks/{stage}/{dataset}.tsv", [])
-            )
+            jobs.append(([stage, dataset, ""], f"{stage}/{dataset}", []))
     for dataset in RECORDED:
-        benchmark = f"results/benchmarks/score_recorded/{dataset}.tsv"
-        jobs.append((["score_recorded", dataset, ""], benchmark, []))
+        jobs.append((["score_recorded", dataset, ""], f"score_recorded/{dataset}", []))
     for dataset in LEARNING:
-        benchmark = f"results/benchmarks/learning_curve/{dataset}.tsv"
-        jobs.append((["learning_curve", dataset, ""], benchmark, []))
+        jobs.append((["learning_curve", dataset, ""], f"learning_curve/{dataset}", []))
     return jobs

@@ -23,7 +23,15 @@ with job(snakemake.log[0], "build report", snakemake.output, snakemake.input, sn
         tables=files.tables,
         robots={name: RobotFiles(*of_robot) for name, of_robot in zip(datasets, of_robots, strict=True)},
         campaign_figures=files.campaign_figures,
-        jobs=[Job(*run, Path(benchmark), tuple(map(Path, records))) for run, benchmark, records in params.jobs],
+        jobs=[
+            Job(
+                *run,
+                benchmark=Path("results", "benchmarks", f"{place}.tsv"),
+                log=Path("results", "logs", f"{place}.log"),
+                records=tuple(map(Path, records)),
+            )
+            for run, place, records in params.jobs
+        ],
         config=params.config,
         titles=Titles(
             {name: spec.title for name, spec in (MODELS | ENSEMBLES).items()},

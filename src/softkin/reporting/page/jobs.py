@@ -11,6 +11,7 @@ from typing import Any
 
 import pandas as pd
 
+from softkin.core.clocks import used_by_log
 from softkin.core.durations import readable
 from softkin.core.files import read_json
 from softkin.reporting.page.grid import Cell, Column, Grid, filtered_columns, number, number_columns
@@ -21,29 +22,35 @@ N_SLOWEST = 15
 
 @dataclass(frozen=True, slots=True)
 class Job:
-    """One measured job: its rule, dataset and model (empty: all of them), Snakemake's benchmark file, and the JSON
-    files that the job wrote, if any: `n_trials` and `n_pruned` of a study, `fit_seconds` of a fit.
+    """One measured job: its rule, dataset and model (empty: all of them), Snakemake's benchmark file, its log, in which
+    it says what it used, and the JSON files that the job wrote, if any: `n_trials` and `n_pruned` of a study,
+    `fit_seconds` of a fit.
     """
 
     rule: str
     dataset: str
     model: str
     benchmark: Path
+    log: Path
     records: tuple[Path, ...] = ()
 
 
 def measured(jobs: Sequence[Job]) -> pd.DataFrame:
-    """Columns rule, dataset, model, seconds, cpu_seconds, memory_mb (peak resident), ended (UTC), n_trials,
-    n_pruned and fit_seconds (their sums over the job's records; NaN where not recorded), one row per job.
+    """Columns rule, dataset, model, seconds, cpu_seconds and memory_mb (peak resident; NaN where the log is gone),
+    ended (UTC), n_trials, n_pruned and fit_seconds (their sums over the job's records; NaN where not recorded), one row
+    per job. Snakemake's own CPU seconds are samples of what is running, which miss what ends between two of them.
     """
     rows = []
     for job in jobs:
-        benchmark = pd.read_csv(job.benchmark, sep="\t", na_values="-").iloc[-1]
+        seconds = float(pd.read_csv(job.benchmark, sep="\t")["s"].iloc[-1])
+        used = used_by_log(job.log) if job.log.is_file() else None
         records = [read_json(record) for record in job.records]
         rows.append(
             {
                 **{"rule": job.rule, "dataset": job.dataset, "model": job.model},
-                **{"seconds": benchmark["s"], "cpu_seconds": benchmark["cpu_time"], "memory_mb": benchmark["max_rss"]},
+                "seconds": seconds,
+                "cpu_seconds": used.cpu_seconds if used else float("nan"),
+                "memory_mb": used.memory_mb if used else float("nan"),
                 "ended": datetime.fromtimestamp(job.benchmark.stat().st_mtime, UTC),
                 **{name: _sum(records, name) for name in ("n_trials", "n_pruned", "fit_seconds")},
             }

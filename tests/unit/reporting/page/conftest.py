@@ -12,6 +12,7 @@ import pandas as pd
 import pytest
 from PIL import Image
 
+from softkin.core.clocks import Used
 from softkin.core.files import write_json
 from softkin.core.samples import SUBSETS
 from softkin.reporting.page.build import RobotFiles, build_report
@@ -78,11 +79,12 @@ def checkout(folder: Path) -> Path:
 
 def timed_jobs(folder: Path) -> list[Job]:
     """A study and a job without records of its own."""
-    benchmark, record = folder / "gp.tsv", folder / "parameters.json"
+    benchmark, log, record = folder / "gp.tsv", folder / "gp.log", folder / "parameters.json"
     folder.mkdir()
     benchmark.write_text("s\tmax_rss\tcpu_time\n75.5\t200\t60\n")
+    log.write_text(f"INFO {Used(60.0, 50.0, 200.0)}\n")
     write_json(record, {"n_trials": 30, "n_pruned": 4})
-    return [Job("fit_model", "arm", "gp", benchmark, (record,)), Job("score", "arm", "", benchmark)]
+    return [Job("fit_model", "arm", "gp", benchmark, log, (record,)), Job("score", "arm", "", benchmark, log)]
 
 
 @pytest.fixture(scope="session")

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from softkin.core.clocks import Used
 from softkin.core.files import write_json
 from softkin.reporting.page.jobs import N_SLOWEST, Job, duration, measured, slowest_grid
 
@@ -13,10 +14,12 @@ def jobs(tmp_path: Path) -> list[Job]:
     jobs = []
     for seconds in range(1, 31):
         benchmark, record = tmp_path / f"{seconds}.tsv", tmp_path / f"{seconds}.json"
-        cpu = "-" if seconds == 1 else str(seconds / 2)  # Snakemake's word for what it could not measure
-        benchmark.write_text(f"s\th:m:s\tmax_rss\tcpu_time\n{seconds}\t0:00:01\t100\t{cpu}\n")
+        benchmark.write_text(f"s\th:m:s\tmax_rss\tcpu_time\n{seconds}\t0:00:01\t99\t{seconds / 3}\n")
+        log = tmp_path / f"{seconds}.log"
+        if seconds > 1:
+            log.write_text(f"INFO {Used(seconds / 2, 0.1, 100.0)}\n")
         write_json(record, {"n_trials": 30, "n_pruned": seconds})
-        jobs.append(Job("fit_model" if seconds % 2 else "refit", "arm", "gp", benchmark, (record,)))
+        jobs.append(Job("fit_model" if seconds % 2 else "refit", "arm", "gp", benchmark, log, (record,)))
     return jobs
 
 
@@ -38,13 +41,13 @@ def test_duration_adds_up(jobs: list[Job]) -> None:
 
 
 def test_a_job_of_all_models_without_records(jobs: list[Job]) -> None:
-    whole = Job("score", "arm", "", jobs[0].benchmark)
+    whole = Job("score", "arm", "", jobs[0].benchmark, jobs[0].log)
     (row,) = slowest_grid(measured([whole]), {}).rows
-    assert [cell.text for cell in row] == ["score", "arm", "all", "1.00", "–", "100", "–", "–", "–"]
+    assert [cell.text for cell in row] == ["score", "arm", "all", "1.00", "–", "–", "–", "–", "–"]
 
 
 def test_seconds_of_several_fits_add_up(jobs: list[Job], tmp_path: Path) -> None:
     for name, seconds in (("one.json", 1.5), ("two.json", 2.0)):
         write_json(tmp_path / name, {"fit_seconds": seconds})
-    fit = Job("fit_model", "arm", "gp", jobs[0].benchmark, (tmp_path / "one.json", tmp_path / "two.json"))
+    fit = Job("fit_model", "arm", "gp", jobs[0].benchmark, jobs[0].log, (tmp_path / "one.json", tmp_path / "two.json"))
     assert measured([fit])["fit_seconds"].tolist() == [3.5]
