@@ -84,8 +84,8 @@ def coverage():
         confidence_levels=params.confidence_levels,
         output=output.left_out,
     )
-    truth = {subset: read_subset(files.table, subset).positions for subset in SUBSETS}
-    score_alarms(outputs, truth, dataset=dataset, seed=params.seed, output=output.alarms)
+    samples = {subset: read_subset(files.table, subset) for subset in SUBSETS}
+    score_alarms(outputs, samples, dataset=dataset, seed=params.seed, output=output.alarms)
     score_extrapolation(
         files.table,
         dataset=dataset,

@@ -17,7 +17,7 @@ from softkin.core.runs import Run
 from softkin.core.samples import TEST, TRAIN, VALIDATION, Array, Samples, informative_coordinates
 from softkin.uncertainty.conformal import conformal_rank, error_scale, joint_scores, p_values
 from softkin.uncertainty.intervals.spec import NO_GUARANTEE
-from softkin.uncertainty.promise import Promise
+from softkin.uncertainty.promise import Promise, own_rows
 from softkin.uncertainty.regions.spec import RegionMethod, divided
 from softkin.uncertainty.stored_outputs import INTERVAL_SUBSETS, StoredOutputs, predicted_rows
 
@@ -51,21 +51,23 @@ def region_rows(
 
 
 def score_alarms(
-    outputs: StoredOutputs, truth: Mapping[str, Array], *, dataset: str, seed: int, output: str | Path
+    outputs: StoredOutputs, samples: Mapping[str, Samples], *, dataset: str, seed: int, output: str | Path
 ) -> None:
     """Write the share of rows that their p-value calls anomalous, by run, level, subset and displacement.
 
     Parameters:
         outputs: stored outputs of the dataset.
-        truth: subset -> true positions (n_rows, n_coordinates) in mm, of all subsets.
+        samples: subset -> rows, of all subsets.
         dataset: its name.
         seed: of the directions of displacements.
         output: the rates (CSV).
     """
+    truth = {subset: of_subset.positions for subset, of_subset in samples.items()}
+    blocks = {subset: of_subset.block for subset, of_subset in samples.items()}
     rows = []
     for (model, preset), residuals in moving_residuals(outputs, truth):
         for level in outputs.levels:
-            rates = alarm_rates(residuals, _markers(truth), level, seed)
+            rates = alarm_rates(residuals, _markers(truth), level, seed, blocks, outputs.promise)
             rows += [{"dataset": dataset, "model": model, "preset": preset, **row} for row in rates]
     with replacing(output) as temporary:
         pd.DataFrame(rows).to_csv(temporary, index=False)
@@ -145,33 +147,40 @@ def covered_share(is_covered: NDArray[np.bool_], block: NDArray[np.int64] | None
 
 
 def alarm_rates(
-    residuals: Mapping[str, Array], markers: NDArray[np.intp], level: float, seed: int
+    residuals: Mapping[str, Array],
+    markers: NDArray[np.intp],
+    level: float,
+    seed: int,
+    blocks: Mapping[str, NDArray[np.int64] | None],
+    promise: Promise | None,
 ) -> Iterator[dict[str, Any]]:
     """Share of rows whose p-value is at most alpha = 1 - level: mean over single coordinates, and of whole poses.
 
     All markers of a row are displaced in one random direction. Alarms on `test` without displacement are false ones;
-    their expected share is at most alpha.
+    their expected share is at most alpha. With a `promise` p-values count blocks, as those of the calibrated model do,
+    shares are means over held-out blocks, and have no bounds: rows of a block are alike.
     """
     alpha = round(1 - level, 12)
     calibration = residuals[VALIDATION]
-    scale = error_scale(np.abs(residuals[TRAIN]))
+    scale, own, nan = error_scale(np.abs(residuals[TRAIN])), own_rows(promise, level), float("nan")
     for subset in INTERVAL_SUBSETS:
+        block = blocks[subset]
         direction = np.random.default_rng(seed).standard_normal((len(residuals[subset]), 3))
         direction /= np.linalg.norm(direction, axis=1, keepdims=True)
         for displacement in DISPLACEMENTS_MM:
             axes = _axes(markers)
             moved = residuals[subset] + displacement * direction[:, axes]
-            single = p_values(np.abs(calibration), np.abs(moved)) <= alpha
+            single = p_values(np.abs(calibration), np.abs(moved), own=own) <= alpha
             scores = (joint_scores(rows, scale) for rows in (calibration, moved))
-            joint = p_values(*scores) <= alpha
-            low, high = clopper_pearson(int(joint.sum()), len(joint))
+            joint = p_values(*scores, own=own) <= alpha
+            low, high = clopper_pearson(int(joint.sum()), len(joint)) if block is None else (nan, nan)
             yield {
                 "subset": subset,
                 "alpha": alpha,
                 "displacement_mm": displacement,
                 "n_rows": len(joint),
-                "coordinate_alarm_rate": single.mean(),
-                "joint_alarm_rate": joint.mean(),
+                "coordinate_alarm_rate": covered_share(single, block),
+                "joint_alarm_rate": covered_share(joint, block),
                 "joint_low": low,
                 "joint_high": high,
             }

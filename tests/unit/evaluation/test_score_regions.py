@@ -22,6 +22,7 @@ from softkin.uncertainty.regions import REGION_METHODS
 from softkin.uncertainty.stored_outputs import StoredOutputs
 
 MARKERS = np.repeat([0, 1], 3)
+NO_BLOCKS = dict.fromkeys(SUBSETS)
 
 
 def residuals(seed: int, n: int = 88) -> dict[str, Array]:
@@ -35,7 +36,7 @@ def test_false_alarms_are_as_many_as_promised() -> None:
     """
     shares = []
     for seed in range(300):
-        rows = [r for r in alarm_rates(residuals(seed), MARKERS, 0.9, seed) if r["subset"] == TEST]
+        rows = [r for r in alarm_rates(residuals(seed), MARKERS, 0.9, seed, NO_BLOCKS, None) if r["subset"] == TEST]
         still = next(row for row in rows if row["displacement_mm"] == 0)
         moved = next(row for row in rows if row["displacement_mm"] == 5)
         shares.append([still["joint_alarm_rate"], still["coordinate_alarm_rate"], moved["joint_alarm_rate"]])
@@ -44,6 +45,19 @@ def test_false_alarms_are_as_many_as_promised() -> None:
     np.testing.assert_array_less(np.abs(means[:2] - expected), 4 * errors[:2])
     assert expected <= 0.1
     assert means[2] > 0.95
+
+
+def test_false_alarms_of_blocks_are_as_many_as_promised() -> None:
+    """200 times: of 18 blocks whose rows are the same the share is 1/19, where counting rows would give 2/19."""
+    shares = []
+    for seed in range(200):
+        alike = {subset: np.repeat(of_blocks, 5, axis=0) for subset, of_blocks in residuals(seed, 18).items()}
+        blocks = dict.fromkeys(SUBSETS, np.repeat(np.arange(18), 5))
+        first = next(alarm_rates(alike, MARKERS, 0.9, seed, blocks, Promise(18, 5)))
+        shares.append([first["joint_alarm_rate"], first["coordinate_alarm_rate"]])
+        assert np.isnan(first["joint_low"])
+    means, errors = np.mean(shares, axis=0), np.std(shares, axis=0) / np.sqrt(200)
+    np.testing.assert_array_less(np.abs(means - 1 / 19), 4 * errors)
 
 
 @pytest.fixture
@@ -107,8 +121,8 @@ def test_divided_among_coordinates_each_counts_blocks(
 
 
 def test_alarms_are_written(table: Path, outputs: StoredOutputs, tmp_path: Path) -> None:
-    truth = {subset: read_subset(table, subset).positions for subset in SUBSETS}
-    score_alarms(outputs, truth, dataset="arm", seed=0, output=tmp_path / "alarms.csv")
+    samples = {subset: read_subset(table, subset) for subset in SUBSETS}
+    score_alarms(outputs, samples, dataset="arm", seed=0, output=tmp_path / "alarms.csv")
     alarms = pd.read_csv(tmp_path / "alarms.csv")
     assert len(alarms) == 2 * 2 * 5
     grown = alarms[(alarms["subset"] == "test") & (alarms["alpha"] == 0.1)].set_index("displacement_mm")
