@@ -72,7 +72,7 @@ def measure(folder: Path, n_commands: int, options: argparse.Namespace) -> bool:
     table = jobs(folder / "results").round(2)
     for column, count in (("wall_s", 8), ("memory_mb", 4)):
         print(table.nlargest(count, column).to_string(index=False), flush=True)
-    return run.wall <= 60 * options.minutes and run.gigabytes <= options.gigabytes
+    return bool(run.wall <= 60 * options.minutes and run.gigabytes <= options.gigabytes)
 
 
 def main() -> int:
