@@ -62,6 +62,9 @@ All get constant intervals at 90 % by the same split conformal step on `validati
 is what softkin deploys in place of that. Errors, coverage and Winkler scores are means over moving coordinates, in mm;
 coverage at 90 % is promised on `test` only. The best of each column is bold, of the Winkler scores, too, whatever the
 coverage. Rows of ELASTICA's `test` stand in `train` (the leak of its data card): errors there are training errors.
+
+The dataset authors' kinematics-informed network (Yoon et al. 2024) has no row: their repository publishes training
+logs of it in units of its loss, and no errors in mm on these subsets; training it needs torch and their code.
 """
 COLUMNS = (
     "| | CPU min | RMSE test | MAE test | RMSE outside | MAE outside "
