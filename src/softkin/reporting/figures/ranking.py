@@ -85,7 +85,7 @@ FIGURE = FigureSpec(
     "Mean distance between true and predicted marker on test and on extrapolation, of every model with the paper's "
     "settings and with searched ones. The best run is the one nearest to the lower left corner. The height above the "
     "dashed line is the price of extrapolation: a run on it is as good there as in-domain. The ring marks the deployed "
-    "run, which was chosen on train alone. Errors below 1e-9 are drawn at 1e-9.",
+    "run, which was chosen on train alone. Errors below 1e-9 of the axis' unit are drawn there.",
     frame,
     plot,
 )

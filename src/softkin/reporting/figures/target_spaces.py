@@ -76,7 +76,7 @@ FIGURE = FigureSpec(
     "Errors on extrapolation of every model fitted to positions (open marks) and to curvature coordinates (full "
     "marks), each with the best parameters of its study of preset outer. Where the full mark is left of the open one, "
     "curvature coordinates help this model to extrapolate. A ring marks the space that the study chose, on train "
-    "alone: a good choice is the left one of the two. Errors below 1e-9 are drawn at 1e-9.",
+    "alone: a good choice is the left one of the two. Errors below 1e-9 of the axis' unit are drawn there.",
     frame,
     plot,
 )
