@@ -69,7 +69,7 @@ def chosen(rows: Samples, folder: Path) -> tuple[dict[str, Any], float]:
         table,
         spec=MODELS["gp"],
         robot=Robot(base=None, standardised_norm=True),
-        settings=TuningSettings(n_trials=6, n_folds=4, max_rows=300, seed=0),
+        settings=TuningSettings(n_trials=6, n_folds=3, max_rows=200, seed=0),
         search=SearchSettings(dict.fromkeys(files, 6), files, 1, [0.6, 0.8], ["cartesian"]),
         files=files,
         code="",
@@ -81,7 +81,7 @@ def chosen(rows: Samples, folder: Path) -> tuple[dict[str, Any], float]:
 
 @pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.slow)])
 def test_a_robot_without_memory_gets_none_and_loses_nothing(tmp_path: Path, seed: int) -> None:
-    rows = recorded_arm(300, seed=seed)
+    rows = recorded_arm(200, seed=seed)
     memory, error = chosen(rows, tmp_path)
     assert memory["memory"] == "none"
     (tmp_path / "static").mkdir()
@@ -91,6 +91,6 @@ def test_a_robot_without_memory_gets_none_and_loses_nothing(tmp_path: Path, seed
 
 
 def test_a_robot_with_backlash_gets_play_operators(tmp_path: Path) -> None:
-    memory, _ = chosen(recorded_arm(300, backlash=0.04), tmp_path)
+    memory, _ = chosen(recorded_arm(200, backlash=0.04), tmp_path)
     assert memory["memory"] == "play"
     assert np.isfinite(memory["zeros"])

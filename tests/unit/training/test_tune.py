@@ -93,7 +93,7 @@ def two_links(tmp_path_factory: pytest.TempPathFactory) -> pd.DataFrame:
     files: dict[tuple[str, str, str], str | Path] = {}
     for model in ("gp", "ridge"):
         folder = tmp_path_factory.mktemp(model)
-        tuned(two_link_arm(300), model, folder)
+        tuned(two_link_arm(200), model, folder)
         files |= {("arm", model, preset): folder / f"{preset}.json" for preset in (TUNED, OUTER)}
     return searched_runs(files)
 

@@ -38,7 +38,7 @@ def calibrations(draw: st.DrawFn) -> RefitCalibration:
     return kind(fitted_rows, *(draw(arrays(np.float64, shape, elements=POSITIONS)) for shape in shapes))
 
 
-@settings(max_examples=40)
+@settings(max_examples=20)  # one wrong rank shows in nearly every one
 @given(data=calibrations())
 def test_bounds_are_mapies_to_the_bit(data: RefitCalibration) -> None:
     np.testing.assert_array_equal(plus_intervals(data, LEVELS), intervals_by_mapie(data, LEVELS))

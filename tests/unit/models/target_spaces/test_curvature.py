@@ -95,7 +95,8 @@ CONTINUING += [("ridge", {"degree": 2, "alpha": 1e-3})]
 CONTINUING += [("lasso", {"degree": 2, "alpha": 1e-3}), ("huber", {"degree": 2, "epsilon": 1.35, "alpha": 1e-4})]
 #: Models that end at a constant, or at a trend.
 ENDING: list[tuple[str, Params]] = [("rf", {"n_estimators": 50}), ("svr", {})]
-ON_A_TREND = [(model, params | {"trend": trend}) for model, params in (*ENDING, ("gb", {}), ("xgb", {}))
+FEW_TREES: Params = {"n_estimators": 20}
+ON_A_TREND = [(model, params | {"trend": trend}) for model, params in (*ENDING, ("gb", FEW_TREES), ("xgb", FEW_TREES))
               for trend in ("linear", "quadratic")]  # fmt: skip
 NETWORK: Params = {"solver": "lbfgs", "activation": "tanh", "layers": 2, "width": 16, "alpha": 1e-2, "max_iter": 600}
 ON_A_TREND += [("mlp", NETWORK | {"trend": "linear"})]
