@@ -83,7 +83,7 @@ def test_the_card_says_where_the_base_stands_and_who_says_so(tmp_path: Path) -> 
     shift = np.array([10.0, 20.0, 30.0])
     arms = {}
     for n in (1, 3):
-        rows = {subset: bending_arm(200, n_markers=n, seed=place) for place, subset in enumerate(SUBSETS)}
+        rows = {subset: bending_arm(100, n_markers=n, seed=place) for place, subset in enumerate(SUBSETS)}
         arms[n] = {subset: replace(of, positions=of.positions + np.tile(shift, n)) for subset, of in rows.items()}
     whole = audited(arms[1], tmp_path, base={"origin": [10.0, 20.0, 30.0], "axis": [0, 0, 2]})
     assert whole[0]["base"] == {

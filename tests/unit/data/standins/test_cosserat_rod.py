@@ -105,25 +105,31 @@ def test_a_column_buckles_under_a_tip_force_where_euler_says() -> None:
         tip(weak, tip_force=(0, 0, -1.01 * critical))
 
 
-@settings(max_examples=4, deadline=None)
-@given(st.tuples(*[st.floats(-1, 1)] * 4).filter(lambda q: math.hypot(*q) > 0.1))
-def test_turning_base_and_loads_turns_the_shape(quaternion: tuple[float, float, float, float]) -> None:
-    turn = Rotation.from_quat(quaternion).as_matrix()
+def turned_shape(turn: Array, base_rotation: Array | None) -> Array:
     force, moment, weight = np.array([0.2, -0.1, 0.3]), np.array([20.0, 10.0, -30.0]), np.array([0.0, 0.0, -3e-3])
-    tensions = [20.0, 5.0, 0.0, 10.0]
+    turned = loads(
+        FINGER,
+        1,
+        tip_force=turn @ force,
+        tip_moment=turn @ moment,
+        distributed_force=turn @ weight,
+        tensions=np.array([20.0, 5.0, 0.0, 10.0]),
+    )
+    return solve(FINGER, turned, base_rotation=base_rotation).positions[0]
 
-    def shape(turn: Array, base_rotation: Array | None) -> Array:
-        turned = loads(
-            FINGER,
-            1,
-            tip_force=turn @ force,
-            tip_moment=turn @ moment,
-            distributed_force=turn @ weight,
-            tensions=np.array(tensions),
-        )
-        return solve(FINGER, turned, base_rotation=base_rotation).positions[0]
 
-    np.testing.assert_allclose(shape(turn, turn), shape(np.eye(3), None) @ turn.T, atol=1e-6)
+@pytest.fixture(scope="module")
+def upright_shape() -> Array:
+    return turned_shape(np.eye(3), None)
+
+
+@settings(max_examples=4, deadline=None)
+@given(quaternion=st.tuples(*[st.floats(-1, 1)] * 4).filter(lambda q: math.hypot(*q) > 0.1))
+def test_turning_base_and_loads_turns_the_shape(
+    upright_shape: Array, quaternion: tuple[float, float, float, float]
+) -> None:
+    turn = Rotation.from_quat(quaternion).as_matrix()
+    np.testing.assert_allclose(turned_shape(turn, turn), upright_shape @ turn.T, atol=1e-6)
 
 
 def test_the_error_falls_with_the_fourth_power_of_the_elements() -> None:
