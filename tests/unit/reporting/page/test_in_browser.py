@@ -24,6 +24,16 @@ def browser() -> Iterator[Any]:
         browser.close()
 
 
+@pytest.fixture(scope="module")
+def untouched(browser: Any, page: Path) -> Iterator[Any]:
+    """The page, for tests that only look."""
+    context = browser.new_context()
+    tab = context.new_page()
+    tab.goto(page.as_uri())
+    yield tab
+    context.close()
+
+
 @pytest.fixture
 def opened(browser: Any, page: Path) -> Iterator[Any]:
     """opened(**options): the page, whose console must stay empty and which must ask for nothing."""
@@ -56,8 +66,8 @@ def menu(tab: Any, grid: str, name: str) -> Any:
     return tab.locator(f"#{grid}-table").get_by_role("combobox", name=name, exact=True)
 
 
-def test_every_image_has_loaded_and_says_what_it_is(opened: Any) -> None:
-    images = opened().locator("img")
+def test_every_image_has_loaded_and_says_what_it_is(untouched: Any) -> None:
+    images = untouched.locator("img")
     facts = images.evaluate_all("all => all.map(i => [i.complete && i.naturalWidth > 0, i.alt])")
     assert len(facts) == 6
     assert all(loaded for loaded, _ in facts)
@@ -93,9 +103,10 @@ def test_what_was_not_measured_goes_last_either_way(opened: Any) -> None:
         assert shown == ["2.00"] * 64 + ["–"] * 16
 
 
-def test_texts_of_numbers_have_their_value(opened: Any) -> None:
+def test_texts_of_numbers_have_their_value(untouched: Any) -> None:
     texts = ["2.89", "91.4 %", "<0.000000001", "-0.5", "infinite"]
-    values = opened().evaluate("texts => texts.map(text => valueOf(text) === Infinity ? 'most' : valueOf(text))", texts)
+    value = "text => valueOf(text) === Infinity ? 'most' : valueOf(text)"
+    values = untouched.evaluate(f"texts => texts.map({value})", texts)
     assert values == [2.89, 91.4, 1e-9, -0.5, "most"]
 
 
@@ -126,18 +137,19 @@ def test_a_long_table_shows_the_rest_when_asked(opened: Any) -> None:
     assert more.is_hidden()
 
 
-@pytest.mark.parametrize("width", [320, 390, 1280])
-def test_only_tables_scroll_sideways(opened: Any, width: int) -> None:
-    tab = opened(viewport=PHONE | {"width": width})
-    assert tab.evaluate("document.documentElement.scrollWidth") <= width
-    # Nothing but what scrolls in a box of its own reaches beyond the screen.
-    beyond = tab.evaluate(
-        """width => Array.from(document.querySelectorAll("main *, header *, footer *"))
-        .filter(e => e.getBoundingClientRect().right > width + 1 && !e.closest(".scroll, pre"))
-        .map(e => e.outerHTML.slice(0, 80))""",
-        width,
-    )
-    assert beyond == []
+def test_only_tables_scroll_sideways(opened: Any) -> None:
+    tab = opened(viewport=PHONE)
+    for width in (320, 390, 1280):
+        tab.set_viewport_size(PHONE | {"width": width})
+        assert tab.evaluate("document.documentElement.scrollWidth") <= width
+        # Nothing but what scrolls in a box of its own reaches beyond the screen.
+        beyond = tab.evaluate(
+            """width => Array.from(document.querySelectorAll("main *, header *, footer *"))
+            .filter(e => e.getBoundingClientRect().right > width + 1 && !e.closest(".scroll, pre"))
+            .map(e => e.outerHTML.slice(0, 80))""",
+            width,
+        )
+        assert beyond == [], width
 
 
 def hint(tab: Any, grid: str) -> Any:
@@ -165,8 +177,8 @@ def test_the_hint_of_a_folded_picture_comes_when_it_is_opened(opened: Any) -> No
     album.get_by_text("Scroll sideways").first.wait_for(state="visible")
 
 
-def test_the_csv_of_a_table_can_be_downloaded(opened: Any) -> None:
-    tab = opened()
+def test_the_csv_of_a_table_can_be_downloaded(untouched: Any) -> None:
+    tab = untouched
     with tab.expect_download() as download:
         tab.locator("#slowest-table").get_by_role("link", name="slowest.csv").click()
     assert download.value.suggested_filename == "slowest.csv"
@@ -192,9 +204,14 @@ def luminance(colour: str) -> float:
     return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_all_text_is_readable_in_light_and_dark(opened: Any, scheme: str) -> None:
-    tab = opened(color_scheme=scheme)
+def test_all_text_is_readable_in_light_and_dark(opened: Any) -> None:
+    tab = opened()
+    for scheme in ("light", "dark"):
+        tab.emulate_media(color_scheme=scheme)
+        check_that_text_is_readable(tab, scheme)
+
+
+def check_that_text_is_readable(tab: Any, scheme: str) -> None:
     pairs = tab.evaluate(
         """() => { const behind = e => { for (; e; e = e.parentElement) { const c = getComputedStyle(e).backgroundColor;
             if (c !== "rgba(0, 0, 0, 0)") return c; } return "none"; };
