@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import compileall
 import json
 import os
 import shutil
@@ -98,24 +99,31 @@ class House:
         """(rule, wildcards) of each job that a run would start now."""
         status, output = self.looking("--dry-run", more=more)
         assert status == 0, output
-        jobs, rule = [], ""
-        for line in output.splitlines():
-            if line.startswith(("rule ", "localrule ")):
-                rule = line.split()[1].rstrip(":")
-                jobs.append((rule, ""))
-            elif "wildcards:" in line:
-                jobs[-1] = (rule, line.split("wildcards:")[1].strip())
-        return [job for job in jobs if job[0] != "all"]
+        return jobs_of(output)
+
+
+def jobs_of(planned: str) -> list[tuple[str, str]]:
+    """(rule, wildcards) of each job that a dry run has printed, but for that of all results."""
+    jobs, rule = [], ""
+    for line in planned.splitlines():
+        if line.startswith(("rule ", "localrule ")):
+            rule = line.split()[1].rstrip(":")
+            jobs.append((rule, ""))
+        elif "wildcards:" in line:
+            jobs[-1] = (rule, line.split("wildcards:")[1].strip())
+    return [job for job in jobs if job[0] != "all"]
 
 
 def copy_house(root: Path) -> None:
+    """With its bytecode: where none may be written at run time, each job would compile all that it imports anew."""
     root.mkdir()
     for name in ("Snakefile", "CITATION.cff", "config", "workflow", "profiles", "resources", "src"):
         source = HOUSE / name
         if source.is_dir():
-            shutil.copytree(source, root / name, ignore=shutil.ignore_patterns("__pycache__", "*.egg-info"))
+            shutil.copytree(source, root / name, ignore=shutil.ignore_patterns("*.egg-info"))
         else:
             shutil.copy(source, root / name)
+    compileall.compile_dir(root / "src", quiet=1)  # what is missing or older than its source
 
 
 @pytest.fixture(scope="session")

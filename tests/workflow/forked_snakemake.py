@@ -16,7 +16,10 @@ import sys
 from typing import Any
 
 #: What Snakemake imports when it starts, and later in a dry run.
-IMPORTED = ("snakemake.cli", "snakemake.report.html_reporter", "snakemake.storage", "nbformat", "numpy", "filelock")
+IMPORTED = (
+    *("snakemake.cli", "snakemake.report.html_reporter", "snakemake.storage", "nbformat", "numpy", "filelock"),
+    *("smart_open", "requests", "difflib", "graphlib", "statistics", "platformdirs"),
+)
 
 
 def run(arguments: list[str], environment: dict[str, str], folder: str, output: str) -> None:

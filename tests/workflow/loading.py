@@ -15,7 +15,7 @@ import multiprocessing
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from types import ModuleType
+from types import CodeType, ModuleType
 from typing import Any
 
 SOURCE = Path(__file__).parents[2] / "src"
@@ -50,6 +50,10 @@ class Package(ModuleType):
             exec(compile(file.read_text(), file, "exec"), vars(self))
 
 
+#: Import statements of softkin's own, by file: all are read once, before the first of many processes is forked.
+STATEMENTS: dict[Path, list[tuple[str | None, CodeType]]] = {}
+
+
 def imports(tree: ast.AST, of_softkin: bool) -> Iterator[ast.Import | ast.ImportFrom]:
     """The import statements of a file, but for those that only a type checker reads."""
     for node in ast.iter_child_nodes(tree):
@@ -82,16 +86,27 @@ def loaded(source: str) -> list[str]:
     read: set[Path] = set()
     while waiting := {Path(source), *map(file_of, names_loaded())} - read:
         for file in waiting:
-            for statement in imports(ast.parse(file.read_text()), of_softkin=True):
-                if getattr(statement, "module", None) not in never_loaded:
-                    exec(ast.unparse(statement), {})
+            for module, statement in STATEMENTS[file]:
+                if module not in never_loaded:
+                    exec(statement, {})
         read |= waiting
     return names_loaded()
 
 
+def read_statements(file: Path, module: ast.Module) -> None:
+    """Compile the import statements of softkin's own in a file."""
+    STATEMENTS[file] = [
+        (getattr(statement, "module", None), compile(ast.unparse(statement), file, "exec"))
+        for statement in imports(module, of_softkin=True)
+    ]
+
+
 def main(sources: list[str]) -> None:
+    for script in map(Path, sources):
+        read_statements(script, ast.parse(script.read_text()))
     for file in sorted(SOURCE.rglob("*.py")):  # other libraries, once for all processes
         module = ast.parse(file.read_text())
+        read_statements(file, module)
         module.body = [node for node in module.body if isinstance(node, ast.ImportFrom | ast.Import)]
         for statement in imports(module, of_softkin=False):
             if not ast.unparse(statement).startswith("from __future__"):

@@ -145,8 +145,3 @@ def test_a_run_on_an_executor_is_watched_without_cores(new_house: House) -> None
     assert done.returncode == 0, done.stdout + done.stderr
     lines = [line for line in done.stderr.splitlines() if line.startswith("[") and " jobs · " in line]
     assert [line.split("] ")[1].split(":")[0] for line in lines] == ["retrieve finger", "prepare finger"]
-
-
-def test_snakemakes_own_output_can_be_asked_for(piped: tuple[House, str]) -> None:
-    done = piped[0].snakemake("results/finger/table.parquet", "--forcerun", "prepare", "--printshellcmds")
-    assert "localrule prepare:" in done.stderr
