@@ -13,7 +13,7 @@ from softkin.data.standins import STANDINS
 from softkin.data.standins.simulating import simulate, split, subset_sizes
 from tests.conftest import HOUSE
 
-SIZES = {"train": 40, "validation": 7, "test": 8, "extrapolation": 20}
+SIZES = {"train": 24, "validation": 5, "test": 6, "extrapolation": 12}
 
 
 @pytest.fixture(scope="module", params=STANDINS)
