@@ -6,6 +6,7 @@ from typing import Any
 
 import pandas as pd
 
+from softkin.core.csv_tables import read_csv
 from softkin.evaluation.recorded_names import BLOCKS
 from softkin.reporting.page.recorded import SPLITS
 from softkin.reporting.tables.numbers import number_text, share_text
@@ -17,7 +18,7 @@ HEADER = ["Robot", "Split", "Rows", "Memory", "Interval", "Labelled poses", "RMS
 def robots_in_time(run: FinishedRun) -> dict[str, Any]:
     """Scores in time; an empty table where no robot is recorded."""
     file = run.results / "tables" / "recorded.csv"
-    recorded = pd.read_csv(file) if file.is_file() else pd.DataFrame()
+    recorded = read_csv(file) if file.is_file() else pd.DataFrame()
     rows = [
         [
             *(run.name(row.dataset), SPLITS[row.split], row.subset, row.memory, row.method),

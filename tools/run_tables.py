@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pandas as pd
 
+from softkin.core.csv_tables import read_csv
 from softkin.core.errors import DataError
 from softkin.core.runs import PAPER, PAPERS_LEVEL, TUNED
 from softkin.core.samples import EXTRAPOLATION, TEST
@@ -32,7 +33,7 @@ class RunTables:
         path = self.folder / f"{name}.csv"
         if not path.is_file():
             raise DataError("no such table", where=path, fix="run the default configuration first: make run")
-        return pd.read_csv(path, dtype=dict.fromkeys(texts, str))
+        return read_csv(path, dtype=dict.fromkeys(texts, str))
 
     def at_level(self, name: str) -> pd.DataFrame:
         """The rows of a table at the confidence level."""

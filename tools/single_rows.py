@@ -17,6 +17,7 @@ from pathlib import Path
 
 import pandas as pd
 
+from softkin.core.csv_tables import read_csv
 from softkin.core.errors import SoftkinError
 from softkin.core.runs import Run
 from softkin.evaluation.score_left_out import score_left_out
@@ -48,7 +49,7 @@ def left_out_of(run: FinishedRun) -> pd.DataFrame:
                 confidence_levels=[run.tables.level],
                 output=output,
             )
-            parts.append(pd.read_csv(output, dtype={"interval_method": str}).fillna({"interval_method": ""}))
+            parts.append(read_csv(output, dtype={"interval_method": str}).fillna({"interval_method": ""}))
     return pd.concat(parts, ignore_index=True)
 
 
@@ -76,7 +77,7 @@ def verdicts(run: FinishedRun, left_out: pd.DataFrame) -> list[list[str]]:
     """Claim, verdict, and what turns it."""
     names = [path.stem for path in (run.results / "tables").glob("*.csv")]
     frames = {name: run.tables.read(name, "printed") for name in names}
-    frames |= {name: pd.read_csv(PUBLISHED / f"{name}.csv") for name in ("subsets", "approaches", "improvements")}
+    frames |= {name: read_csv(PUBLISHED / f"{name}.csv") for name in ("subsets", "approaches", "improvements")}
     about, cards = ([of(dataset) for dataset in run.datasets] for of in (run.description, run.card))
     claims = claims_table(CLAIMS, measured(frames, about, cards), left_out)
     turned = claims[claims["decided_by"].str.contains(VERDICT_TURNS)]

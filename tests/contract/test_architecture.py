@@ -170,6 +170,15 @@ def test_logs_and_benchmarks_bear_the_name_of_their_rule() -> None:
         assert {stem for _, stem in stems} == {name}
 
 
+def test_tables_are_written_and_read_in_one_way() -> None:
+    """What is infinite is a word in a CSV. Trials of a study are finite, and so is what others wrote."""
+    writers = {path.stem for path in FILES if ".to_csv(" in path.read_text()}
+    assert writers == {"csv_tables", "tune", "tune_quantiles"}
+    readers = {path.stem for path in FILES if "pd.read_csv(" in path.read_text()}
+    others = {"published", "published_intervals", "recordings", "figure_index", "images", "jobs"}
+    assert readers == {"csv_tables", *others}
+
+
 def test_rules_are_plain() -> None:
     for path in RULES:
         text = path.read_text()

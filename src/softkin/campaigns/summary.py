@@ -13,6 +13,7 @@ import numpy as np
 import pandas as pd
 
 from softkin.core.bounds import read_bounds
+from softkin.core.csv_tables import read_csv
 from softkin.core.files import read_json, replacing, write_json
 from softkin.core.metrics.interval import covered, widths
 from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, Array, coordinate_columns, informative_coordinates
@@ -69,8 +70,8 @@ def summarise(
         output: the summary.
         rows: the rows.
     """
-    deployed = deployed_intervals(pd.read_csv(choice))
-    scores, interval_scores = pd.read_csv(point), pd.read_csv(intervals)
+    deployed = deployed_intervals(read_csv(choice))
+    scores, interval_scores = read_csv(point), read_csv(intervals)
     datasets, frames = {}, []
     for dataset in config["datasets"]:
         chosen = deployed.loc[dataset]

@@ -162,6 +162,7 @@ def suggest(
 def _write(table: Any, out: Form, to: Path | None) -> None:
     """The table to a file, or to standard output."""
     from softkin.cli.use_model import finite
+    from softkin.core.csv_tables import csv_of
 
     if out is Form.PARQUET:
         table.to_parquet(to if to is not None else sys.stdout.buffer, index=False)
@@ -170,7 +171,7 @@ def _write(table: Any, out: Form, to: Path | None) -> None:
         records = [{key: finite(value) for key, value in row.items()} for row in table.to_dict(orient="records")]
         text = json.dumps(records, allow_nan=False) + "\n"
     else:
-        text = table.to_csv(index=False)
+        text = csv_of(table)
     if to is None:
         sys.stdout.write(text)
     else:

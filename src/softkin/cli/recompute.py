@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 
 from softkin.core.bounds import bounds_levels, read_bounds
+from softkin.core.csv_tables import read_csv
 from softkin.core.escaping import one_line
 from softkin.core.metrics.interval import covered, widths, winkler_scores
 from softkin.core.runs import Run
@@ -54,7 +55,7 @@ def _readable(check: Callable[..., list[str]], path: Path, *more: Any) -> list[s
 
 def points(folder: Path) -> list[str]:
     """What differs between a dataset's point metrics and those of its stored predictions."""
-    stored = pd.read_csv(folder / "point_metrics.csv")
+    stored = read_csv(folder / "point_metrics.csv")
     runs = [Run(*run) for run in stored[["model", "preset"]].drop_duplicates().itertuples(index=False)]
     with tempfile.TemporaryDirectory() as place:
         made = {name: Path(place) / f"{name}.csv" for name in ("point_metrics", "marker_errors")}
@@ -66,14 +67,14 @@ def points(folder: Path) -> list[str]:
             point=made["point_metrics"],
             markers=made["marker_errors"],
         )
-        parts = [differences(folder / f"{name}.csv", pd.read_csv(path)) for name, path in made.items()]
+        parts = [differences(folder / f"{name}.csv", read_csv(path)) for name, path in made.items()]
     return [sentence for part in parts for sentence in part]
 
 
 def intervals(folder: Path) -> list[str]:
     """What differs between a dataset's coverage, widths and Winkler scores and those of its stored intervals."""
     path = folder / "interval_metrics.csv"
-    metrics = pd.read_csv(path)
+    metrics = read_csv(path)
     known = metrics.set_index(KEY)[["coverage", "mean_width_mm", "winkler_mm"]].sort_index()
     wrong = []
     for file in sorted((folder / "intervals").glob("*.parquet")):
@@ -96,14 +97,14 @@ def collected(table: Path, datasets: Sequence[Path]) -> list[str]:
     """What differs between a `table` across `datasets` and the files that its rows were collected from."""
     if not table.is_file():
         return []
-    listed = list(dict.fromkeys(pd.read_csv(table)["dataset"]))
-    made = [pd.read_csv(folder / table.name) for name in listed for folder in datasets if folder.name == name]
+    listed = list(dict.fromkeys(read_csv(table)["dataset"]))
+    made = [read_csv(folder / table.name) for name in listed for folder in datasets if folder.name == name]
     return differences(table, pd.concat(made, ignore_index=True)) if made else []
 
 
 def differences(path: Path, made: pd.DataFrame) -> list[str]:
     """What differs between the table at `path` and what it was `made` from, in the columns of that."""
-    stored = pd.read_csv(path)
+    stored = read_csv(path)
     if len(stored) != len(made):
         return [f"{path} has {len(stored)} rows, and its sources give {len(made)}"]
     for name in made:

@@ -11,7 +11,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from softkin.core.bounds import read_bounds
-from softkin.core.files import replacing
+from softkin.core.csv_tables import write_csv
 from softkin.core.metrics.interval import covered, widths, worst_slab
 from softkin.core.runs import Run, nearest_level
 from softkin.core.samples import TEST, TRAIN, VALIDATION, Array, Samples, informative_coordinates
@@ -69,8 +69,7 @@ def conditional_coverage(
         key = {"dataset": dataset, "model": robot.spec.name, "preset": robot.preset}
         key |= {"interval_method": robot.method.name, "confidence_level": level}
         rows += [key | row for row in deployed_rows(robot, read_subset(table, VALIDATION), test, level)]
-    with replacing(output) as temporary:
-        pd.DataFrame(rows).to_csv(temporary, index=False)
+    write_csv(output, pd.DataFrame(rows))
 
 
 def _groups(

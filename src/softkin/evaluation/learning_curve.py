@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from softkin.core.csv_tables import write_csv
 from softkin.core.failed_parts import MODELS, of_part
-from softkin.core.files import replacing
 from softkin.core.metrics.point import paper_metrics
 from softkin.core.rows import sampled_rows
 from softkin.core.runs import Run
@@ -58,8 +58,7 @@ def learning_curve(table: str | Path, *, dataset: str, runs: Mapping[Run, Fitted
         predicted = np.asarray(stored.loc[stored["subset"] == TEST, columns], dtype=np.float64)
         scores = paper_metrics(test.positions, predicted)
         rows.append(key | {"share": 1.0, "n_rows": len(train), "n_draws": 1} | {name: scores[name] for name in ERRORS})
-    with replacing(output) as temporary:
-        pd.DataFrame(rows, columns=COLUMNS).to_csv(temporary, index=False)
+    write_csv(output, pd.DataFrame(rows, columns=COLUMNS))
 
 
 def _of_parts(fitted: FittedRun, train: Samples, test: Samples) -> Iterator[dict[str, Any]]:

@@ -12,7 +12,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from softkin.core.bounds import read_bounds
-from softkin.core.files import replacing
+from softkin.core.csv_tables import write_csv
 from softkin.core.metrics.interval import covered, fewest_commands, widths, winkler_scores
 from softkin.core.rows import row_groups
 from softkin.core.runs import Run
@@ -104,8 +104,7 @@ def score_extrapolation(
         for scored in _scored_runs(run, pd.read_parquet(predictions[run]), samples, gross, norm):
             rows += _rows(dataset, scored, [*_labelled_rows(scored, methods), *_interval_rows(scored, methods, stored)])
     frame = pd.DataFrame(rows, columns=COLUMNS)
-    with replacing(output) as temporary:
-        frame.to_csv(temporary, index=False)
+    write_csv(output, frame)
 
 
 #: A row of the table, and the Winkler scores (n_rows,) of the subset's rows; NaN where one got no interval.

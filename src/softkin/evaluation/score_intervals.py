@@ -12,9 +12,9 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from softkin.core.bounds import bounds_levels, read_bounds
+from softkin.core.csv_tables import write_csv
 from softkin.core.errors import DataError
 from softkin.core.failed_parts import INTERVAL_METHODS, of_part
-from softkin.core.files import replacing
 from softkin.core.metrics.interval import (
     clopper_pearson,
     coverage_band,
@@ -110,8 +110,7 @@ def score_intervals(
                     rows += [key | row for row in _rows(setting, bounds[place], crossings[place], scores[subset])]
     rows += [{"dataset": dataset, **row} for row in region_rows(outputs, samples, regions)]
     rows += [{"dataset": dataset, **row} for row in joint]
-    with replacing(output) as temporary:
-        pd.DataFrame(rows).to_csv(temporary, index=False)
+    write_csv(output, pd.DataFrame(rows))
 
 
 def _guarantee(outputs: StoredOutputs, method: IntervalMethod[Any], level: float) -> str:

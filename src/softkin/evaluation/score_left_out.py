@@ -11,7 +11,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from softkin.core.bounds import read_bounds
-from softkin.core.files import replacing
+from softkin.core.csv_tables import write_csv
 from softkin.core.metrics.interval import covered, widths, winkler_scores
 from softkin.core.metrics.left_out import (
     point_metrics_without_each_row,
@@ -82,8 +82,7 @@ def score_left_out(
                 of_subset = read_bounds(frame, subset, [level])[0][:, moving]
                 numbers += _intervals(run, name, true[:, moving], of_subset, level)
         rows += [key | row for row in _rows(numbers)]
-    with replacing(output) as temporary:
-        pd.DataFrame(rows, columns=COLUMNS).to_csv(temporary, index=False)
+    write_csv(output, pd.DataFrame(rows, columns=COLUMNS))
 
 
 def _of_runs(stored: pd.DataFrame, shown: Collection[Run]) -> dict[Run, pd.DataFrame]:

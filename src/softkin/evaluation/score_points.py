@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from softkin.core.files import read_json, replacing
+from softkin.core.csv_tables import write_csv
+from softkin.core.files import read_json
 from softkin.core.metrics.point import euclidean_errors, paper_metrics, point_metrics
 from softkin.core.runs import Run
 from softkin.core.samples import EXTRAPOLATION, SUBSETS, TEST, TRAIN, coordinate_columns, informative_coordinates
@@ -56,8 +57,7 @@ def score_points(
                 for i, (mean, p95) in enumerate(zip(means, p95s, strict=True))
             ]
     for rows, output in ((point_rows, point), (marker_rows, markers)):
-        with replacing(output) as temporary:
-            pd.DataFrame(rows).to_csv(temporary, index=False)
+        write_csv(output, pd.DataFrame(rows))
 
 
 def score_spaces(
@@ -97,5 +97,4 @@ def score_spaces(
                 scores = paper_metrics(true, predicted)
                 errors = {name: scores[name] for name in ("rmse_mm", "mae_mm")}
                 rows.append(key | {"subset": subset} | errors)
-    with replacing(output) as temporary:
-        pd.DataFrame(rows, columns=SPACE_COLUMNS).to_csv(temporary, index=False)
+    write_csv(output, pd.DataFrame(rows, columns=SPACE_COLUMNS))

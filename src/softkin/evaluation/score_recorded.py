@@ -16,7 +16,7 @@ from typing import Any, Self
 import numpy as np
 import pandas as pd
 
-from softkin.core.files import replacing
+from softkin.core.csv_tables import write_csv
 from softkin.core.folds import folds_of
 from softkin.core.metrics.interval import covered, widths, winkler_scores
 from softkin.core.metrics.point import mae_mm, rmse_mm
@@ -119,8 +119,7 @@ def score_recorded(table: str | Path, *, dataset: str, run: RecordedRun | None, 
         for memory, of_memory in {NONE: run.without_memory(), run.memory(): run}.items():
             key = {"dataset": dataset, "model": run.run.model, "preset": run.run.preset, "memory": memory}
             rows += [key | row for row in scored(samples, of_memory)]
-    with replacing(output) as temporary:
-        pd.DataFrame(rows, columns=COLUMNS).to_csv(temporary, index=False)
+    write_csv(output, pd.DataFrame(rows, columns=COLUMNS))
 
 
 def scored(samples: Mapping[str, Samples], run: RecordedRun) -> Iterator[dict[str, Any]]:

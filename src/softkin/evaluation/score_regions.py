@@ -10,8 +10,8 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from softkin.core.csv_tables import write_csv
 from softkin.core.failed_parts import REGIONS, of_part
-from softkin.core.files import replacing
 from softkin.core.metrics.interval import clopper_pearson, coverage_band, coverage_p_value
 from softkin.core.runs import Run
 from softkin.core.samples import TEST, TRAIN, VALIDATION, Array, Samples, informative_coordinates
@@ -69,8 +69,7 @@ def score_alarms(
         for level in outputs.levels:
             rates = alarm_rates(residuals, _markers(truth), level, seed, blocks, outputs.promise)
             rows += [{"dataset": dataset, "model": model, "preset": preset, **row} for row in rates]
-    with replacing(output) as temporary:
-        pd.DataFrame(rows).to_csv(temporary, index=False)
+    write_csv(output, pd.DataFrame(rows))
 
 
 def _markers(truth: Mapping[str, Array]) -> NDArray[np.intp]:

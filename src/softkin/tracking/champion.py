@@ -25,6 +25,7 @@ from mlflow.types import ColSpec, ParamSchema, ParamSpec, Schema
 from mlflow.utils.mlflow_tags import MLFLOW_MODEL_VERSIONS
 
 import softkin
+from softkin.core.csv_tables import read_csv
 from softkin.core.distributions import installed
 from softkin.core.files import file_sha256, sha256_of
 from softkin.core.job_records import load_model
@@ -81,8 +82,8 @@ def log_champion(
     model: CalibratedModel = load_model(calibrated_model)
     name = f"softkin-{described['dataset']}"
     key = {"model": model.spec.name, "preset": model.preset}
-    scores = _rows(pd.read_csv(point), **key)
-    shown, level = _measured(pd.read_csv(intervals), model)
+    scores = _rows(read_csv(point), **key)
+    shown, level = _measured(read_csv(intervals), model)
     card = model_card(
         model, registered=name, description=described, scores=scores, intervals=shown, level=level,
         caution=campaign.caution,

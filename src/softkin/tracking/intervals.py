@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from softkin.core.csv_tables import csv_of, read_csv
 from softkin.core.samples import TEST
 from softkin.core.units import own_unit, unit_of
 from softkin.tracking.figure_index import content_of, shown_in
@@ -62,7 +63,7 @@ def log_intervals(
     experiment = experiment_of(client, described["dataset"])
     shown = shown_in(figures)
     keys, there = set(), find(client, experiment, campaign=campaign.name, kind="intervals", **{CURRENT: YES})
-    table = pd.read_csv(metrics)
+    table = read_csv(metrics)
     # All shapes of joint region around a model share a run: each has one row per subset and level.
     marginal = set(table.loc[table["coordinate"] == "mean_informative", "interval_method"])
     table["run"] = table["interval_method"].where(table["interval_method"].isin(marginal), REGIONS)
@@ -86,7 +87,7 @@ def _record(
 ) -> Record:
     model, preset, method = key
     dataset = tags["dataset"]
-    table = rows.drop(columns="run").to_csv(index=False)
+    table = csv_of(rows.drop(columns="run"))
     return Record(
         key=f"{campaign.name}/{dataset}/{model}/{preset}/{method}",
         name=f"{dataset} · {model} · {preset} · {method}",

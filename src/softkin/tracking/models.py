@@ -13,6 +13,7 @@ import pandas as pd
 from mlflow.entities import Dataset, DatasetInput, InputTag
 
 from softkin import __version__
+from softkin.core.csv_tables import read_csv
 from softkin.core.escaping import markdown_text
 from softkin.core.files import read_json, sha256_of
 from softkin.core.runs import Run
@@ -73,7 +74,7 @@ def log_dataset(
     """
     client = client_of(campaign.tracking_uri)
     described = read_description(description, data_card)
-    scores = pd.read_csv(point)
+    scores = read_csv(point)
     experiment = experiment_of(client, described["dataset"])
     note = f"**{markdown_text(described['title'])}**, {described['origin']}. *Views*, at the top right, has *{NAME}*."
     note += unit_note(described) + _findings_note(described) + caution_note(campaign)
@@ -139,7 +140,7 @@ def _record(
             NOTE: note,
         },
         metrics=metrics | {name: study[name] for name in ("cv_mae_mm", "shell_mae_mm") if name in study},
-        curves=_trial_curves(pd.read_csv(files["trials"])) if "trials" in files else [],
+        curves=_trial_curves(read_csv(files["trials"])) if "trials" in files else [],
         params={"target_space": fit["target_space"], **fit["params"]},
         inputs=[_dataset_input(description)],
         files=[files[name] for name in ARTIFACTS if name in files],

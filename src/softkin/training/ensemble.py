@@ -17,6 +17,7 @@ import joblib
 import numpy as np
 import pandas as pd
 
+from softkin.core.csv_tables import write_csv
 from softkin.core.files import read_json, replacing, write_json
 from softkin.core.job import stopwatch
 from softkin.core.job_records import load_model
@@ -206,5 +207,4 @@ def write_steps(steps: Steps, trials: str | Path) -> None:
         }
         for step, (weights, errors) in enumerate(zip(steps.weights, steps.errors, strict=True))
     ]
-    with replacing(trials) as temporary:
-        pd.DataFrame(rows).to_csv(temporary, index=False)
+    write_csv(trials, pd.DataFrame(rows))

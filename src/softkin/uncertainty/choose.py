@@ -12,9 +12,9 @@ import pandas as pd
 from numpy.typing import NDArray
 from sklearn.model_selection import GroupKFold, KFold
 
+from softkin.core.csv_tables import read_csv, write_csv
 from softkin.core.errors import ConfigError
 from softkin.core.failed_parts import INTERVAL_METHODS, of_part
-from softkin.core.files import replacing
 from softkin.core.metrics.interval import typical_winkler, winkler_scores
 from softkin.core.runs import Run, nearest_level
 from softkin.core.samples import MIN_CALIBRATION_ROWS, TRAIN, VALIDATION, Array, informative_coordinates
@@ -36,13 +36,13 @@ Resplittable = PointCalibration | QuantileCalibration
 
 def shown_runs(choice: str | Path) -> set[Run]:
     """The runs whose intervals are shown at length: the paper's and the candidates of a `choice`."""
-    candidates = pd.read_csv(choice, dtype=str)
+    candidates = read_csv(choice, dtype=str)
     return {PAPERS_RUN, *map(Run, candidates["model"], candidates["preset"])}
 
 
 def deployed_choice(choice: str | Path) -> pd.Series | None:
     """The row of a `choice` that is deployed; None where no candidate is around a point model."""
-    candidates = pd.read_csv(choice)
+    candidates = read_csv(choice)
     around_model = candidates[candidates["deployed"]]
     return None if around_model.empty else around_model.iloc[0]
 
@@ -95,8 +95,7 @@ def choose(
     has_shells = np.array([run in shells for run in zip(frame["model"], frame["preset"], strict=True)])
     by_shells = frame["deployed"] & has_shells
     frame["outside"] = frame["interval_method"].mask(by_shells, AUTO)
-    with replacing(choice) as temporary:
-        frame.to_csv(temporary, index=False)
+    write_csv(choice, frame)
     best = frame.iloc[0]
     if np.isinf(best[DECISIVE]):
         level, lowest = (f"{100 * at:g} %" for at in (best["confidence_level"], outputs.levels[0]))

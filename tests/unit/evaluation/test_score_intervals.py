@@ -7,6 +7,7 @@ import pandas as pd
 import pytest
 
 from softkin.core.bounds import bounds_frame
+from softkin.core.csv_tables import read_csv
 from softkin.core.errors import DataError
 from softkin.core.runs import Run
 from softkin.data.table import read_subset, to_table, write_table
@@ -70,7 +71,7 @@ def metrics(table: Path, tmp_path: Path) -> pd.DataFrame:
         outputs=outputs,
         output=tmp_path / "metrics.csv",
     )
-    return pd.read_csv(tmp_path / "metrics.csv")
+    return read_csv(tmp_path / "metrics.csv")
 
 
 def rows(metrics: pd.DataFrame, **wanted: object) -> pd.DataFrame:
@@ -115,10 +116,13 @@ def test_in_extrapolation_nothing_is_guaranteed(metrics: pd.DataFrame) -> None:
     assert set(raw["guarantee"]) == {NO_GUARANTEE}
 
 
-def test_infinite_intervals_and_crossings_are_counted(metrics: pd.DataFrame) -> None:
+def test_infinite_intervals_and_crossings_are_counted(metrics: pd.DataFrame, tmp_path: Path) -> None:
     scores = rows(metrics, interval_method="qr", subset="test", confidence_level=0.9)
     assert set(scores["infinite_share"]) == {1.0}
     assert np.isinf(scores.loc["mean", "mean_width_mm"])
+    text = (tmp_path / "metrics.csv").read_text()
+    assert ",infinite," in text
+    assert ",inf," not in text
     assert scores.loc[["m1_x", "m1_y", "m1_z"], "crossing_share"].tolist() == [0.0, 0.0, 1.0]
     assert scores.loc["joint", "crossing_share"] == 1.0
     assert set(rows(metrics, interval_method="scp_mapie")["crossing_share"]) == {0.0}

@@ -7,6 +7,7 @@ import pandas as pd
 import pytest
 
 from softkin.core.bounds import bounds_frame
+from softkin.core.csv_tables import read_csv
 from softkin.core.errors import ConfigError
 from softkin.core.run_archive import RunArchive
 from softkin.core.runs import Run
@@ -209,7 +210,8 @@ def test_where_all_scores_are_infinite_the_lowest_level_decides(
     )
     methods = {"scp_mapie": INTERVAL_METHODS["scp_mapie"]}
     choose(outputs, methods=methods, runs=[GP, LR], seed=0, regime="in_domain", choice=tmp_path / "choice.csv")
-    choice = pd.read_csv(tmp_path / "choice.csv")
+    assert ",infinite," in (tmp_path / "choice.csv").read_text()
+    choice = read_csv(tmp_path / "choice.csv")
     assert np.isinf(choice["cv_winkler_typical_mm"]).all()
     assert list(choice["model"]) == ["lr", "gp"]
     assert "tie" not in choice

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
+from softkin.core.csv_tables import read_csv
 from softkin.core.runs import Run
 from softkin.core.samples import TEST, TRAIN, coordinate_columns, informative_coordinates
 from softkin.data.table import read_subset
@@ -31,7 +32,7 @@ def frame(results: DatasetResults) -> pd.DataFrame:
     The band holds the coverage of one coordinate in 95 of 100 cases, exactly; it is NaN where a method has no
     guarantee. Shown are the deployed model and the paper's, and of the quantile regressors the paper's and the best.
     """
-    table = pd.read_csv(results.interval_metrics)
+    table = read_csv(results.interval_metrics)
     table = table[(table["subset"] == TEST) & table["interval_method"].isin(list(results.intervals))]
     rows = zip(table["model"], table["preset"], table["interval_method"], strict=True)
     shown = {method: _runs(results, method) for method in results.intervals}

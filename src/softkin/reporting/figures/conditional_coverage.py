@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
+from softkin.core.csv_tables import read_csv
 from softkin.reporting.figures.reading import candidates, deployed
 from softkin.reporting.figures.spec import DatasetResults, FigureSpec
 from softkin.reporting.figures.style import BLACK, PAGE, PALETTE, heading, legend_below, panels
@@ -30,7 +31,7 @@ MARKS = "osD^vP*X"
 
 def frame(results: DatasetResults) -> pd.DataFrame:
     """Rows of conditional_coverage.csv of the deployed model and of the best CQR, with the `title` of the method."""
-    table = pd.read_csv(results.conditional, dtype={"group": str})
+    table = read_csv(results.conditional, dtype={"group": str})
     choice = candidates(results)
     best = deployed(results)
     cqr = choice[choice["has_own_regressors"]].head(1)

@@ -9,7 +9,7 @@ from typing import Any
 
 import pandas as pd
 
-from softkin.core.files import replacing
+from softkin.core.csv_tables import write_csv
 from softkin.reporting.figures.spec import FigureSpec, Results
 from softkin.reporting.figures.style import SETTINGS
 
@@ -34,13 +34,11 @@ def draw(figures: Mapping[str, FigureSpec[Results]], results: Results, folder: P
         if frame.empty:
             logger.info("no figure %s: what it shows was not run, or too little of it", name)
             continue
-        with replacing(folder / f"{name}.csv") as temporary:
-            frame.to_csv(temporary, index=False)
+        write_csv(folder / f"{name}.csv", frame)
         with mpl.rc_context(SETTINGS):
             render(spec.plot(frame, results), folder / name)
         runs = frame[RUN_COLUMNS].drop_duplicates().to_dict("records")
         index += [{"figure": name, "title": spec.title, "caption": spec.caption, **run} for run in runs]
         logger.info("figure %s drawn", name)
     columns = ["figure", "title", "caption", *RUN_COLUMNS]
-    with replacing(folder / "index.csv") as temporary:
-        pd.DataFrame(index, columns=columns).to_csv(temporary, index=False)
+    write_csv(folder / "index.csv", pd.DataFrame(index, columns=columns))

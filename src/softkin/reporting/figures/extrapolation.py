@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pandas as pd
 
+from softkin.core.csv_tables import read_csv
 from softkin.core.runs import PAPERS_LEVEL
 from softkin.core.samples import EXTRAPOLATION, TEST
 from softkin.reporting.figures.spec import DatasetResults, FigureSpec
@@ -31,7 +32,7 @@ def frame(results: DatasetResults) -> pd.DataFrame:
     """Columns model, preset, interval_method, title, subset, confidence_level and those in `SHOWN`: a row per run,
     method and subset, at the level nearest to 0.9; runs without intervals in extrapolation are left out.
     """
-    scores = pd.read_csv(results.extrapolation, keep_default_na=False, na_values=[""])
+    scores = read_csv(results.extrapolation, keep_default_na=False, na_values=[""])
     if scores.empty:
         return scores
     levels = scores["confidence_level"].unique()

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
+from softkin.core.csv_tables import read_csv
 from softkin.core.runs import TUNED
 from softkin.core.samples import TRAIN, Array
 from softkin.reporting.figures.spec import DatasetResults, FigureSpec
@@ -34,7 +35,7 @@ def frame(results: DatasetResults) -> pd.DataFrame:
     to the logarithm of the error on the first fold of `train`, which pruned trials have, too: complete trials alone
     would be the good ones only. Models with fewer than `LEAST_TRIALS` are left out.
     """
-    parts = [_importances(pd.read_csv(path)).assign(model=model) for model, path in results.trials.items()]
+    parts = [_importances(read_csv(path)).assign(model=model) for model, path in results.trials.items()]
     parts = [part for part in parts if len(part)]
     return pd.concat(parts, ignore_index=True).assign(preset=TUNED, interval_method="") if parts else pd.DataFrame()
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
+from softkin.core.csv_tables import read_csv
 from softkin.core.escaping import figure_text
 from softkin.reporting.figures.spec import CampaignResults, FigureSpec
 from softkin.reporting.figures.style import LEAST_MM, LOOKS, PAGE, legend_below, logarithmic, panels, sample
@@ -19,7 +20,7 @@ def frame(results: CampaignResults) -> pd.DataFrame:
     """Columns model, preset, interval_method, dataset, share, n_rows, rmse_mm, leak: a row per run and share."""
     if results.learning_curve is None:
         return pd.DataFrame()
-    curves = pd.read_csv(results.learning_curve)
+    curves = read_csv(results.learning_curve)
     columns = ["dataset", "model", "preset", "share", "n_rows", "rmse_mm", "leak"]
     return curves[columns].assign(interval_method="")
 

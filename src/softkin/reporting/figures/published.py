@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pandas as pd
 
+from softkin.core.csv_tables import read_csv
 from softkin.core.escaping import figure_text
 from softkin.core.runs import PRESETS
 from softkin.reporting.figures.spec import CampaignResults, FigureSpec
@@ -30,7 +31,7 @@ def frame(results: CampaignResults) -> pd.DataFrame:
     printed cell and preset. `ratio` is softkin's metric divided by the printed one, for R2 that of 1 - R2: below 1 is
     better.
     """
-    cells = pd.read_csv(results.published_comparison, dtype={"note": str}).fillna({"note": ""})
+    cells = read_csv(results.published_comparison, dtype={"note": str}).fillna({"note": ""})
     parts = []
     for preset in (preset for preset in PRESETS if f"{preset}_value" in cells):
         part = cells[["dataset", "subset", "model", "metric", "printed", "note"]].copy()

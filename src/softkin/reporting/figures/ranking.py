@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
+from softkin.core.csv_tables import read_csv
 from softkin.core.runs import OUTER, PAPER
 from softkin.core.samples import EXTRAPOLATION, TEST
 from softkin.reporting.figures.reading import deployed
@@ -33,7 +34,7 @@ def frame(results: DatasetResults) -> pd.DataFrame:
     """Columns model, preset, interval_method, test, extrapolation (mean error of a marker, mm), chosen: whether
     it is deployed.
     """
-    point = pd.read_csv(results.point)
+    point = read_csv(results.point)
     key = ["model", "preset"]
     table = point.pivot_table(index=key, columns="subset", values=ERROR, sort=False)[[TEST, EXTRAPOLATION]]
     best = deployed(results)

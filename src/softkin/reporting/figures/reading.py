@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
+from softkin.core.csv_tables import read_csv
 from softkin.core.metrics.point import euclidean_errors
 from softkin.core.runs import Run
 from softkin.core.samples import TEST, TRAIN, Array, coordinate_columns, informative_coordinates
@@ -42,7 +43,7 @@ def deployed(results: DatasetResults) -> Deployed | None:
 
 def candidates(results: DatasetResults) -> pd.DataFrame:
     """Rows of interval_choice.csv, best first, with a column `has_own_regressors`."""
-    choice = pd.read_csv(results.choice)
+    choice = read_csv(results.choice)
     return choice.assign(
         has_own_regressors=choice["interval_method"].map(dict(results.has_own_regressors)).astype(bool)
     )

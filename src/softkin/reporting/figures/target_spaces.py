@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
+from softkin.core.csv_tables import read_csv
 from softkin.core.runs import OUTER
 from softkin.core.samples import EXTRAPOLATION
 from softkin.reporting.figures.spec import DatasetResults, FigureSpec
@@ -33,7 +34,7 @@ POSITIONS = "cartesian"
 
 def frame(results: DatasetResults) -> pd.DataFrame:
     """Columns model, preset, interval_method, target_space, is_chosen, rmse_mm, mae_mm: a row per model and space."""
-    scores = pd.read_csv(results.target_spaces)
+    scores = read_csv(results.target_spaces)
     scores = scores[scores["subset"] == EXTRAPOLATION].reset_index(drop=True)
     return scores[["model", "target_space", "is_chosen", *ERRORS]].assign(preset=OUTER, interval_method="")
 

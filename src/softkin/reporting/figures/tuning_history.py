@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
+from softkin.core.csv_tables import read_csv
 from softkin.core.runs import TUNED
 from softkin.core.samples import TRAIN
 from softkin.reporting.figures.spec import DatasetResults, FigureSpec
@@ -21,7 +22,7 @@ def frame(results: DatasetResults) -> pd.DataFrame:
     """
     parts = []
     for model, path in results.trials.items():
-        trials = pd.read_csv(path)[["trial", "score_mm"]].dropna().sort_values("trial")
+        trials = read_csv(path)[["trial", "score_mm"]].dropna().sort_values("trial")
         parts.append(trials.assign(model=model, preset=TUNED, interval_method="", best_mm=trials["score_mm"].cummin()))
     return pd.concat(parts, ignore_index=True) if parts else pd.DataFrame()
 

@@ -12,6 +12,7 @@ import pandas as pd
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from pandas.errors import EmptyDataError
 
+from softkin.core.csv_tables import read_csv
 from softkin.core.errors import ConfigError
 from softkin.core.files import read_json, write_text
 from softkin.reporting.page import published
@@ -112,7 +113,7 @@ def build_report(
 def _read(path: Path) -> pd.DataFrame:
     """A table; what the paper printed stays text. One without any row has no columns either."""
     try:
-        return pd.read_csv(path, dtype={"printed": str})
+        return read_csv(path, dtype={"printed": str})
     except EmptyDataError:
         return pd.DataFrame()
 

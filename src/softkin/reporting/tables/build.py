@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from softkin.core.csv_tables import write_csv
 from softkin.core.escaping import csv_frame, markdown_text, one_line
-from softkin.core.files import replacing, write_text
+from softkin.core.files import write_text
 from softkin.core.runs import OUTER, PAPER, TUNED
 from softkin.core.samples import TEST
 from softkin.reporting.tables.claims import with_memory
@@ -45,8 +46,7 @@ def build_tables(tables: Tables, *, titles: Titles, folder: Path, caution: str |
     """
     frames = tables.frames
     for name, frame in frames.items():
-        with replacing(folder / f"{name}.csv") as temporary:
-            csv_frame(frame).to_csv(temporary, index=False)
+        write_csv(folder / f"{name}.csv", csv_frame(frame))
     robots = {name: entry["title"] for name, entry in tables.sources.items()}
     sentences = summary(frames["published_comparison"], frames.get("published_columns"))
     preface = _preface([*map(markdown_text, _cautions(caution)), *sentences], presets_of(frames["point_metrics"]))

@@ -9,6 +9,7 @@ from typing import Any
 
 import pandas as pd
 
+from softkin.core.csv_tables import read_csv
 from softkin.core.files import read_json
 from softkin.core.runs import TUNED
 from softkin.data.audit.findings import leak_notes, leaking_subsets
@@ -105,7 +106,7 @@ def read_tables(
     point = marked(_concatenated(paths.point for paths in files), leaks)
     intervals = marked(_concatenated(paths.intervals for paths in files), leaks, calibrated=True)
     cells = compare(read_published(published.point), point, notes)
-    choices = {name: pd.read_csv(paths.choice) for name, paths in datasets.items()}
+    choices = {name: read_csv(paths.choice) for name, paths in datasets.items()}
     frames = {
         "point_metrics": point,
         "marker_errors": marked(_concatenated(paths.markers for paths in files), leaks),
@@ -130,19 +131,19 @@ def read_tables(
         frames["recorded"] = marked(_concatenated(recorded), leaks)
     if learning:
         frames["learning_curve"] = marked(_concatenated(learning), leaks)
-    printed = {name: pd.read_csv(getattr(published, name)) for name in ("subsets", "approaches", "improvements")}
+    printed = {name: read_csv(getattr(published, name)) for name in ("subsets", "approaches", "improvements")}
     frames["claims"] = claims(frames, printed, descriptions, cards)
     return Tables(with_units(frames, descriptions), sources, descriptions, cards, notes, printed["subsets"])
 
 
 def _left_out(files: Sequence[DatasetFiles]) -> pd.DataFrame:
     """Scores with one row or coordinate left out; those of point models have no method, which is no missing number."""
-    frames = [pd.read_csv(paths.left_out, dtype={"interval_method": str}) for paths in files]
+    frames = [read_csv(paths.left_out, dtype={"interval_method": str}) for paths in files]
     return pd.concat(frames, ignore_index=True).fillna({"interval_method": ""})
 
 
 def _concatenated(paths: Iterable[str | Path]) -> pd.DataFrame:
-    return pd.concat([pd.read_csv(path) for path in paths], ignore_index=True)
+    return pd.concat([read_csv(path) for path in paths], ignore_index=True)
 
 
 def _notes(
