@@ -3,24 +3,25 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from softkin.core.bounds import bounds_levels, read_bounds
+from softkin.cli.differences import differ, differences
+from softkin.cli.rebuild import can_be_rebuilt, rebuilt
+from softkin.core.bounds import read_bounds
 from softkin.core.csv_tables import read_csv
+from softkin.core.errors import SoftkinError
 from softkin.core.escaping import one_line
 from softkin.core.metrics.interval import covered, widths, winkler_scores
 from softkin.core.runs import Run
-from softkin.core.samples import EXTRAPOLATION, TEST, coordinate_columns
+from softkin.core.samples import EXTRAPOLATION, TEST, Array, coordinate_columns
 from softkin.data.table import read_subset
 from softkin.evaluation.score_points import score_points
 
-#: Numbers that differ by less, relative to their size, are the same.
-TOLERANCE = 1e-9
 #: Tables across datasets that hold the rows of a file of the same name of each dataset.
 COLLECTED = (
     "point_metrics",
@@ -33,7 +34,8 @@ COLLECTED = (
     "left_out",
 )
 #: What a row of the interval metrics is about.
-KEY = ["interval_method", "model", "preset", "subset", "coordinate", "confidence_level"]
+KEY = ["interval_method", "model", "preset", "subset", "confidence_level"]
+SCORES = ["coverage", "mean_width_mm", "winkler_mm"]
 
 
 def recomputed(results: Path) -> Iterator[str]:
@@ -42,6 +44,9 @@ def recomputed(results: Path) -> Iterator[str]:
     for dataset in datasets:
         yield from _readable(points, dataset)
         yield from _readable(intervals, dataset)
+    if can_be_rebuilt(results):
+        yield from _readable(rebuilt, results)
+        return
     for name in COLLECTED:
         yield from _readable(collected, results / "tables" / f"{name}.csv", datasets)
 
@@ -49,7 +54,7 @@ def recomputed(results: Path) -> Iterator[str]:
 def _readable(check: Callable[..., list[str]], path: Path, *more: Any) -> list[str]:
     try:
         return check(path, *more)
-    except (OSError, ValueError, KeyError, TypeError) as error:
+    except (SoftkinError, OSError, ValueError, KeyError, TypeError) as error:
         return [f"{path} cannot be checked: {one_line(str(error))[:200]}"]
 
 
@@ -75,22 +80,49 @@ def intervals(folder: Path) -> list[str]:
     """What differs between a dataset's coverage, widths and Winkler scores and those of its stored intervals."""
     path = folder / "interval_metrics.csv"
     metrics = read_csv(path)
-    known = metrics.set_index(KEY)[["coverage", "mean_width_mm", "winkler_mm"]].sort_index()
-    wrong = []
-    for file in sorted((folder / "intervals").glob("*.parquet")):
-        for (model, preset), stored in pd.read_parquet(file).groupby(["model", "preset"], sort=False):
-            levels = bounds_levels(stored)
-            for subset in (TEST, EXTRAPOLATION):
-                true = read_subset(folder / "table.parquet", subset).positions
-                for level, bounds in zip(levels, read_bounds(stored, subset, levels), strict=True):
-                    parts = covered(true, bounds), widths(bounds), winkler_scores(true, bounds, level)
-                    means = np.column_stack([part.mean(axis=0) for part in parts])
-                    for name, made in zip(coordinate_columns(true.shape[1] // 3), means, strict=True):
-                        key = (file.stem, model, preset, subset, name, level)
-                        if key not in known.index or _differ(known.loc[key], made):
-                            wrong.append(f"{file.stem} around {model} {preset}, {subset}, {name}, {level:g}")
+    truth = {subset: read_subset(folder / "table.parquet", subset).positions for subset in (TEST, EXTRAPOLATION)}
+    parts = [_scores(file, truth) for file in sorted((folder / "intervals").glob("*.parquet"))]
+    if not parts:
+        return []
+    key = [*KEY, "coordinate"]
+    both = pd.concat(parts, ignore_index=True).merge(metrics[[*key, *SCORES]], "left", key, suffixes=("_made", ""))
+    is_wrong = np.any([differ(both[name], both[f"{name}_made"]) for name in SCORES], axis=0)
+    wrong = [
+        f"{row.interval_method} around {row.model} {row.preset}, {row.subset}, {row.coordinate}, "
+        f"{row.confidence_level:g}"
+        for row in both[is_wrong].itertuples()
+    ]
     more = f" and {len(wrong) - 1} more rows" if len(wrong) > 1 else ""
     return [f"{path} is not what the stored intervals give: {wrong[0]}{more}"] if wrong else []
+
+
+def _scores(file: Path, truth: Mapping[str, Array]) -> pd.DataFrame:
+    """Mean scores of the intervals in a file: a row per run, subset, level and coordinate.
+
+    Raises:
+        ValueError: a run has not an interval for each true position.
+    """
+    stored, parts = pd.read_parquet(file), []
+    for (subset, level), rows in stored[stored["subset"].isin(truth)].groupby(["subset", "confidence_level"]):
+        true = truth[str(subset)]
+        of_runs = rows.groupby(["model", "preset"], sort=False)
+        runs = of_runs.size()
+        if (runs != len(true)).any():
+            raise ValueError(f"{file} has not an interval for each row of {subset}")
+        ordered = rows.iloc[np.argsort(of_runs.ngroup().to_numpy(), kind="stable")]
+        bounds = read_bounds(ordered, str(subset), [float(level)])[0]
+        repeated = np.tile(true, (len(runs), 1))
+        scores = (
+            covered(repeated, bounds),
+            widths(bounds),
+            winkler_scores(repeated, bounds, float(level)),
+        )
+        means = (score.reshape(len(runs), *true.shape).mean(axis=1).ravel() for score in scores)
+        names = coordinate_columns(true.shape[1] // 3)
+        key = [(file.stem, *run, subset, level, name) for run in runs.index for name in names]
+        frame = pd.DataFrame(key, columns=[*KEY, "coordinate"])
+        parts.append(frame.assign(**dict(zip(SCORES, means, strict=True))))
+    return pd.concat(parts, ignore_index=True) if parts else pd.DataFrame(columns=[*KEY, "coordinate", *SCORES])
 
 
 def collected(table: Path, datasets: Sequence[Path]) -> list[str]:
@@ -100,25 +132,3 @@ def collected(table: Path, datasets: Sequence[Path]) -> list[str]:
     listed = list(dict.fromkeys(read_csv(table)["dataset"]))
     made = [read_csv(folder / table.name) for name in listed for folder in datasets if folder.name == name]
     return differences(table, pd.concat(made, ignore_index=True)) if made else []
-
-
-def differences(path: Path, made: pd.DataFrame) -> list[str]:
-    """What differs between the table at `path` and what it was `made` from, in the columns of that."""
-    stored = read_csv(path)
-    if len(stored) != len(made):
-        return [f"{path} has {len(stored)} rows, and its sources give {len(made)}"]
-    for name in made:
-        if name not in stored:
-            return [f"{path} has no column {name}"]
-        for row, (old, new) in enumerate(zip(stored[name], made[name], strict=True)):
-            if _differ([old], [new]):
-                return [f"{path}, row {row + 1}, column {name}: {old} stands there, and its sources give {new}"]
-    return []
-
-
-def _differ(old: Any, new: Any) -> bool:
-    try:
-        numbers = np.ravel(np.asarray(old, dtype=np.float64)), np.ravel(np.asarray(new, dtype=np.float64))
-    except (TypeError, ValueError):
-        return list(map(str, np.ravel(old))) != list(map(str, np.ravel(new)))
-    return not np.allclose(*numbers, rtol=TOLERANCE, atol=0.0, equal_nan=True)

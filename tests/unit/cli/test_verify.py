@@ -16,7 +16,10 @@ def results(tmp_path: Path) -> Path:
 
 def test_what_is_as_it_was_written_passes(results: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--in", str(results.parent)]) == 0
-    assert "14 files are as they were written" in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert "14 files are as they were written" in said
+    assert "by their hashes alone" in said
+    assert "headline and claims, for want of tables/summary.json" in said
 
 
 def test_what_is_wrong_is_named_with_what_to_do(results: Path, capsys: pytest.CaptureFixture[str]) -> None:
