@@ -18,15 +18,15 @@ def build(params: Params, seed: int, threads: int) -> Any:
     """Polynomial of `degree` fitted with `epsilon` and `alpha` of HuberRegressor: beyond epsilon standard deviations a
     residual counts linearly, so that a gross error hardly changes the fit.
     """
-    from sklearn.linear_model import HuberRegressor
     from sklearn.pipeline import make_pipeline
 
     from softkin.models.estimators.bounded_polynomial import BoundedPolynomial
     from softkin.models.estimators.per_target import PerTarget
+    from softkin.models.estimators.quick_huber import QuickHuber
 
     features = {key: value for key, value in params.items() if key in ("degree", "interactions")}
     rest = {key: value for key, value in params.items() if key not in features}
-    return make_pipeline(BoundedPolynomial(**features), PerTarget(HuberRegressor(**rest, max_iter=MAX_ITER)))
+    return make_pipeline(BoundedPolynomial(**features), PerTarget(QuickHuber(**rest, max_iter=MAX_ITER)))
 
 
 def search_space(trial: BaseTrial) -> Params:

@@ -97,21 +97,27 @@ class HeldOut:
     seed: int
     threads: int
     _kept: dict[tuple[str, str], tuple[Array | None, float]] = field(default_factory=dict)
+    _predicted_parts: dict[tuple[str, str], list[Array]] = field(default_factory=dict)
 
     def errors(self, params: Params, by: str) -> Iterator[float]:
         """Mean absolute error (mm) over moving coordinates, part by part of the preset `by`; standardisation, too, is
-        by the rows that are fitted on.
+        by the rows that are fitted on. Bounds may make the same of different draws: it is fitted once.
 
         Where the target space does not hold a part (no arc leads to a marker) the error is infinite, and the last.
         """
         own_params = dict(params)
-        predictions: list[Array] = []
+        predictions = self._predicted_parts.setdefault((by, _key(params)), [])
         errors: list[float] = []
         space, memory = own_params.pop(SPACE), taken_memory(own_params)
         settings = FitSettings(
             own_params, True, self.seed, self.threads, target_space=space, base=self.robot.base, memory=memory
         )
-        for (fitted_rows, scored_rows), truth in zip(self.parts[by], truth_of(self.rows, self.parts[by]), strict=True):
+        truths = truth_of(self.rows, self.parts[by])
+        for place, ((fitted_rows, scored_rows), truth) in enumerate(zip(self.parts[by], truths, strict=True)):
+            if place < len(predictions):
+                errors.append(mean_error(predictions[place], truth))
+                yield errors[-1]
+                continue
             try:
                 model = fitted_model(self.spec, settings, self.rows.take(fitted_rows))
             except SoftkinError as error:

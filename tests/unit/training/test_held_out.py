@@ -106,3 +106,17 @@ def test_what_is_predicted_on_the_way_is_kept_and_stored(tmp_path: Path, monkeyp
         again = [mean_error(predicted, part) for predicted, part in zip(split, truth, strict=True)]
         assert again == by_part[by], "to the bit"
         assert held_out.predicted(LINE, by)[1] == np.mean(again)
+
+
+def test_parts_are_fitted_once_with_the_same_parameters_also_after_a_trial_was_cut_short(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    rows = bending_arm(60)
+    folds = grouped_folds(rows.commands, 3, 0)
+    held_out = HeldOut(MODELS["lr"], rows, {TUNED: folds}, ROBOT, 0, 1)
+    first = next(held_out.errors(LINE, TUNED))
+    assert list(held_out.errors(dict(LINE), TUNED)) == [first, *errors("lr", LINE, rows, folds)[1:]]
+    predicted, score = held_out.predicted(LINE, TUNED)
+    monkeypatch.setattr("softkin.training.held_out.fitted_model", refuse)
+    assert np.mean(list(held_out.errors(LINE, TUNED))) == score
+    np.testing.assert_array_equal(held_out.predicted(LINE, TUNED)[0], predicted)

@@ -130,7 +130,7 @@ DESCRIBERS: dict[str, Describer] = {
     "LinearRegression": of_linear,
     "Lasso": of_linear,
     "Ridge": of_linear,
-    "HuberRegressor": of_linear,
+    "QuickHuber": of_linear,
     "BoundedGaussianProcess": describe_kernels.of_gaussian_process,
     "SVR": describe_kernels.of_support_vectors,
     "MLPRegressor": of_network,
