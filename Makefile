@@ -28,7 +28,7 @@ endif
 .PHONY: help run demo campaign refit schedule prune unlock new-robot test test-workflow test-units test-contracts other-pythons test-run lint ui store report verify
 .PHONY: gallery numbers results-page single-rows
 .PHONY: snakemake-report campaigns campaign-slurm coverage standins timings benchmark benchmark-large benchmark-pruning benchmark-shells
-.PHONY: benchmark-figures benchmark-two-files benchmark-commands benchmark-many-robots benchmark-recalibration benchmark-choice benchmark-promises
+.PHONY: benchmark-figures benchmark-fit-rows benchmark-two-files benchmark-commands benchmark-many-robots benchmark-recalibration benchmark-choice benchmark-promises
 .PHONY: benchmark-latency latency-page benchmark-inverse benchmark-difficulty benchmark-peers benchmark-suggest
 .PHONY: environment clean ui-screenshot bad-inputs-page faults-page
 
@@ -167,6 +167,10 @@ benchmark-pruning: .venv/installed
 # Whether robots of 2 to 64 commands and 10,000 rows go through with all models in 15 minutes and 4 GB each.
 benchmark-commands: .venv/installed
 	$(BIN)/python -m benchmarks.commands --cores "$$CORES"
+
+# What a bound on the rows of a fit costs and saves, on simulated robots.
+benchmark-fit-rows: .venv/installed
+	$(BIN)/python -m benchmarks.fit_rows
 
 # Whether an export of Motive and a log of commands of 60,000 rows become a calibrated model in 5 minutes.
 benchmark-two-files: .venv/installed

@@ -147,8 +147,9 @@ def robot(wildcards):
 
 
 def max_fit_rows(wildcards):
-    """How many rows of train a model is fitted on at most; None for one that takes any number."""
-    return config["max_fit_rows"].get(wildcards.model)
+    """How many rows of train a model, or the quantile regressor of that name, is fitted on at most; None for any number."""
+    name = wildcards.get("model") or wildcards.quantile_model
+    return config["max_fit_rows"].get(name)
 
 
 def tracking_uri():

@@ -67,6 +67,7 @@ if config["quantile_models"] and QUANTILE_PRESETS:
             study="results/studies/{dataset}/quantiles_{quantile_model}.journal",
             tuning=tuning("n_quantile_trials"),
             confidence_levels=config["confidence_levels"],
+            max_rows=max_fit_rows,
             seed=config["seed"],
             code=quantile_code,
             study_code=quantile_study_code,

@@ -30,5 +30,5 @@ with job(snakemake.log[0], f"fit quantiles {dataset} {model}", snakemake.output,
         # The paper has one level; its pair of quantiles serves all levels of CQR.
         levels = [nearest_level(params.confidence_levels)] if preset == PAPER else params.confidence_levels
         regressor = QuantileModel(spec, fitted_with[preset], levels, params.seed, threads)
-        fit_quantiles(table, regressor=regressor, files=files)
+        fit_quantiles(table, regressor=regressor, files=files, max_rows=params.max_rows)
     write_manifest(output.manifest, [file for file in output if file != output.manifest])

@@ -21,6 +21,7 @@ from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, VALIDATION, Array, 
 from softkin.core.threads import limited_threads
 from softkin.data.table import read_subset
 from softkin.models.quantile.spec import QuantileSpec
+from softkin.training.kinematic_model import some_rows
 
 logger = logging.getLogger("softkin")
 
@@ -75,16 +76,20 @@ class QuantileFiles:
     record: str | Path
 
 
-def fit_quantiles(table: str | Path, *, regressor: QuantileModel, files: QuantileFiles) -> None:
+def fit_quantiles(
+    table: str | Path, *, regressor: QuantileModel, files: QuantileFiles, max_rows: int | None = None
+) -> None:
     """Fit `regressor` on `train` of `table`; write it, the quantiles that it predicts and a record of its times.
 
     Parameters:
         table: path of the tidy table (Parquet).
         regressor: the unfitted quantile regressors of all coordinates.
         files: where they go.
+        max_rows: rows at most, as of `fit`.
     """
+    samples = some_rows(read_subset(table, TRAIN), max_rows, regressor.seed)
     with stopwatch() as watch, limited_threads(regressor.threads), counted_as_fit():
-        regressor.fit(read_subset(table, TRAIN))
+        regressor.fit(samples)
     with replacing(files.model) as temporary:
         joblib.dump(regressor, temporary, compress=3)
     frames = []
@@ -94,5 +99,5 @@ def fit_quantiles(table: str | Path, *, regressor: QuantileModel, files: Quantil
     with replacing(files.quantiles) as temporary:
         pd.concat(frames, ignore_index=True).to_parquet(temporary, index=False)
     times = {"fit_seconds": watch.seconds, "fit_cpu_seconds": watch.cpu_seconds}
-    write_json(files.record, {"params": regressor.params, **times})
+    write_json(files.record, {"params": regressor.params, "n_train": len(samples), **times})
     logger.info("fitted %d quantiles in %.1f s", 2 * len(regressor.levels), watch.seconds)

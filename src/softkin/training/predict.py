@@ -12,6 +12,7 @@ import numpy as np
 import pandas as pd
 
 from softkin.core.files import replacing
+from softkin.core.rows import Indices, sampled_rows
 from softkin.core.samples import SUBSETS, TEST, TRAIN, Array, Samples, coordinate_columns
 from softkin.core.threads import limited_threads
 from softkin.data.table import read_subset
@@ -19,6 +20,16 @@ from softkin.models.spec import PointModel
 
 #: Prefixes of the columns of a model's spread: of a predictive standard deviation, and of any other.
 STANDARD_DEVIATION, SPREAD = "std_", "spread_"
+#: Rows of `train` at most that have a spread: intervals need the mean over them, and a row costs a Gaussian process the
+#: square of its rows.
+SPREAD_ROWS = 4_000
+#: Rows at most that predicting is timed on.
+TIMED_ROWS = 1_000
+
+
+def rows_with_spread(n_train: int) -> Indices:
+    """Ascending numbers of the rows of `train` whose spread is computed: all, or `SPREAD_ROWS` of them."""
+    return sampled_rows(n_train, SPREAD_ROWS, seed=0)
 
 
 def spread_of(spec: PointModel, estimator: Any, train: Samples, inputs: Array) -> Array:
@@ -41,7 +52,7 @@ def predict(
     predictions: str | Path,
 ) -> float:
     """Write the predictions of every subset; return how many microseconds a row of `test` takes (median of five
-    repetitions).
+    repetitions on at most `TIMED_ROWS` rows).
 
     Parameters:
         table: path of the tidy table (Parquet).
@@ -50,6 +61,7 @@ def predict(
         threads: threads at most.
         predictions: path of the predictions (Parquet: subset, m1_x.. in mm, rows as in `table`). A model with a spread
             has columns for it too, in mm: std_m1_x.. where it is a predictive standard deviation, else spread_m1_x...
+            Of more than `SPREAD_ROWS` rows of `train` the others have none.
     """
     train = read_subset(table, TRAIN)
     frames = []
@@ -58,11 +70,14 @@ def predict(
             inputs = (train if subset == TRAIN else read_subset(table, subset)).inputs
             frames.append(_frame(subset, np.asarray(estimator.predict(inputs))))
             if spec.spread is not None:
-                spread = _frame(subset, spread_of(spec, estimator, train, inputs))
+                rows = rows_with_spread(len(inputs)) if subset == TRAIN else np.arange(len(inputs))
+                values = np.full((len(inputs), train.positions.shape[1]), np.nan)
+                values[rows] = spread_of(spec, estimator, train, inputs[rows])
+                spread = _frame(subset, values)
                 prefix = STANDARD_DEVIATION if spec.is_predictive else SPREAD
                 frames[-1] = pd.concat([frames[-1], spread.iloc[:, 1:].add_prefix(prefix)], axis=1)
             if subset == TEST:
-                microseconds = _microseconds_per_row(estimator, inputs)
+                microseconds = _microseconds_per_row(estimator, inputs[:TIMED_ROWS])
     with replacing(predictions) as temporary:
         pd.concat(frames, ignore_index=True).to_parquet(temporary, index=False)
     return microseconds

@@ -10,7 +10,7 @@ import numpy as np
 
 from softkin.core.samples import Array, Samples, informative_coordinates
 from softkin.models.spec import PointModel
-from softkin.training.predict import spread_of
+from softkin.training.predict import rows_with_spread, spread_of
 from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.calibration_data import Shell
 from softkin.uncertainty.conformal import error_scale
@@ -72,7 +72,7 @@ def calibrated(
         "new_commands": validation.commands[:0],
     }
     if method.calibrated_on.has_spread:
-        known["train_spread"] = model.spread(train.inputs)
+        known["train_spread"] = model.spread(train.inputs[rows_with_spread(len(train))])
         known["calibration_spread"] = model.spread(validation.inputs)
         known["new_spread"] = known["calibration_spread"][:0]
     if method.calibrated_on.needs_held_out:

@@ -17,7 +17,7 @@ from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, VALIDATION, Array, 
 from softkin.core.shells import CommandNorm
 from softkin.data.table import read_subset
 from softkin.training.held_out import PartSettings
-from softkin.training.predict import SPREAD, STANDARD_DEVIATION
+from softkin.training.predict import SPREAD, STANDARD_DEVIATION, rows_with_spread
 from softkin.training.refit import FOLD_OF_ROW, FOLDS, RESAMPLE_ROWS, RESAMPLES
 from softkin.training.refit_shells import CENTRE, SCALE, core_rows, shell_rows
 from softkin.training.selection import deployable_runs
@@ -108,7 +108,7 @@ class StoredOutputs:
                     run,
                     kind(
                         **self._predicted(run),
-                        train_spread=predicted_rows(stored, [TRAIN], prefix),
+                        train_spread=predicted_rows(stored, [TRAIN], prefix)[rows_with_spread(len(self.train))],
                         calibration_spread=predicted_rows(stored, [VALIDATION], prefix)[self.calibrated],
                         new_spread=predicted_rows(stored, INTERVAL_SUBSETS, prefix),
                     ),

@@ -67,3 +67,18 @@ def test_only_train_is_fitted_on_and_files_round_trip(
     stored = joblib.load(tmp_path / "0" / "m.joblib").predict(read_subset(table, "test").commands)
     np.testing.assert_array_equal(read_bounds(outputs[0], "test", LEVELS), stored)
     assert set(outputs[0]["subset"]) == {"validation", "test", "extrapolation"}
+
+
+def test_a_bound_on_the_rows_is_kept_recorded_and_said(
+    table: Path, tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    predicted = []
+    for place, max_rows in enumerate((15, 40)):
+        files = QuantileFiles(*(tmp_path / f"{place}.{name}" for name in ("joblib", "parquet", "json")))
+        regressor = QuantileModel(QUANTILE_MODELS["xgb"], FEW_TREES, LEVELS, seed=0, threads=1)
+        fit_quantiles(table, regressor=regressor, files=files, max_rows=max_rows)
+        assert read_json(files.record)["n_train"] == max_rows
+        predicted.append(pd.read_parquet(files.quantiles))
+    assert caplog.text.count("max_fit_rows") == 1
+    assert "fitted on 15 of 40 rows: max_fit_rows" in caplog.text
+    assert not predicted[0].equals(predicted[1])

@@ -11,7 +11,7 @@ from softkin.core.samples import SUBSETS, TRAIN, Params, coordinate_columns
 from softkin.data.table import read_subset
 from softkin.models import MODELS
 from softkin.training.kinematic_model import FitSettings, fitted_model
-from softkin.training.predict import SPREAD, STANDARD_DEVIATION, predict, spread_of
+from softkin.training.predict import SPREAD, STANDARD_DEVIATION, predict, rows_with_spread, spread_of
 
 SMALL: dict[str, Params] = {
     "lr": {},
@@ -73,3 +73,19 @@ def test_the_spread_of_a_forest_is_that_of_its_trees_in_mm(table: Path, target_s
     spread = spread_of(MODELS["rf"], estimator, train, train.commands)
     tolerance = {"cartesian": 1e-6, "curvature": 0.3}[target_space]
     np.testing.assert_allclose(spread.mean(axis=0), positions.std(axis=0).mean(axis=0), rtol=tolerance)
+
+
+def test_of_many_rows_of_train_some_have_a_spread_and_every_other_row_has(
+    table: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    every = run(table, tmp_path, "gp").filter(like=STANDARD_DEVIATION).to_numpy()
+    monkeypatch.setattr("softkin.training.predict.SPREAD_ROWS", 7)
+    monkeypatch.setattr("softkin.training.predict.TIMED_ROWS", 3)
+    predictions = run(table, tmp_path, "gp")
+    some, is_train = predictions.filter(like=STANDARD_DEVIATION).to_numpy(), (predictions["subset"] == TRAIN).to_numpy()
+    assert not np.isnan(predictions.filter(like="m1_").drop(columns=predictions.filter(like="std_")).to_numpy()).any()
+    np.testing.assert_array_equal(some[~is_train], every[~is_train])
+    kept = np.flatnonzero(~np.isnan(some[is_train]).any(axis=1))
+    np.testing.assert_array_equal(kept, rows_with_spread(int(is_train.sum())))
+    assert len(kept) == 7
+    np.testing.assert_allclose(some[is_train][kept], every[is_train][kept], rtol=1e-9)

@@ -65,6 +65,13 @@ def test_points_are_those_of_their_subsets(table: Path, stored: Path) -> None:
     assert set(data.new_spread.ravel()) == {2.0}
 
 
+def test_of_train_the_rows_with_a_spread_are_read(table: Path, stored: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("softkin.training.predict.SPREAD_ROWS", 7)
+    ((_, data),) = stored_outputs_of(table, stored).of(SpreadCalibration)
+    assert data.train_spread.shape == (7, 3)
+    assert data.calibration_spread.shape == (40, 3)
+
+
 def test_a_spread_that_is_no_standard_deviation_is_not_predictive(table: Path, stored: Path) -> None:
     predictions = pd.read_parquet(stored / "predictions.parquet")
     predictions.rename(columns=lambda name: name.replace("std_", "spread_")).to_parquet(stored / "predictions.parquet")

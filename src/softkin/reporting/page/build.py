@@ -24,7 +24,7 @@ from softkin.reporting.page.grid import Grid
 from softkin.reporting.page.headline import robot_cards
 from softkin.reporting.page.images import Folder, albums
 from softkin.reporting.page.jobs import Job, duration, measured, slowest_grid
-from softkin.reporting.page.marks import Marks, kinds
+from softkin.reporting.page.marks import Marks, bounds_of_fits, kinds
 from softkin.reporting.page.provenance import data_grid, what_was_run
 from softkin.reporting.page.recorded import recorded_grid
 from softkin.reporting.page.scores import choice_grid, interval_grid, point_grid
@@ -79,7 +79,7 @@ def build_report(
     descriptions = {dataset: read_json(files.description) for dataset, files in robots.items()}
     cards = {dataset: read_json(files.data_card) for dataset, files in robots.items()}
     sources = {dataset: config["sources"][dataset] for dataset in robots}
-    marks = Marks(sources, descriptions, cards)
+    marks = Marks(sources, descriptions, cards, bounds_of_fits(config))
     times = measured(jobs)
     folders = [
         Folder(descriptions[dataset]["title"], files.figures, marks.of_dataset(dataset))

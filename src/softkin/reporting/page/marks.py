@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any
 
-from softkin.core.samples import SUBSETS, VALIDATION
+from softkin.core.samples import SUBSETS, TRAIN, VALIDATION
 from softkin.core.units import MM, heading, unit_of
 from softkin.data.audit.findings import LEAK, NEIGHBOURS_IN_TIME
 
@@ -20,6 +21,7 @@ class Mark:
 
 
 CUT = "rows were left out (max_rows_per_subset): not comparable with the paper, nor with a complete run"
+FEWER = "of {n_train} rows of train, models are fitted on some, drawn at random (max_fit_rows): {models}"
 OWN_UNIT = "positions, errors and widths of this robot are in {unit}, also below names that end in _mm"
 STANDIN = "a stand-in, simulated by softkin in place of the published data: its numbers say nothing of the real robot"
 
@@ -30,7 +32,8 @@ class Marks:
     A finding of severity `leak` in a data card marks its subsets as a `leak`, one of neighbours in time that stand in
     `train` as `optimistic`; `notes` of an entry in
     config/datasets.yaml stand with it, or are a `caution` on their subset; `is_cut` and the origin of dataset.json mark
-    every subset; so does a unit that is not mm.
+    every subset; so do `max_fit_rows`, the rows that models are fitted on at most, where `train` has more, and a unit
+    that is not mm.
     """
 
     def __init__(
@@ -38,6 +41,7 @@ class Marks:
         sources: Mapping[str, Mapping[str, Any]],
         descriptions: Mapping[str, Mapping[str, Any]],
         cards: Mapping[str, Mapping[str, Any]],
+        max_fit_rows: Mapping[str, int] = MappingProxyType({}),
     ) -> None:
         self._marks: dict[tuple[str, str], list[Mark]] = {}
         for dataset, description in descriptions.items():
@@ -54,6 +58,8 @@ class Marks:
                     if f.get("code") == NEIGHBOURS_IN_TIME and subset in f["subsets"]
                 ]
                 marks += [Mark("rows left out", f"{dataset}: {CUT}.")] * bool(description["is_cut"])
+                fewer = fitted_on_fewer(description, max_fit_rows)
+                marks += [Mark("fitted on fewer rows", f"{dataset}: {fewer}.")] * bool(fewer)
                 marks += [Mark("stand-in", f"{dataset}: {STANDIN}.")] * (description.get("origin") == "stand-in")
                 unit = unit_of(description)
                 marks += [Mark(f"in {unit}", f"{dataset}: {OWN_UNIT.format(unit=unit)}.")] * (unit != MM)
@@ -73,6 +79,21 @@ class Marks:
     def of_dataset(self, dataset: str) -> tuple[Mark, ...]:
         """Every mark of a dataset."""
         return merged([self.of(dataset, subset) for subset in SUBSETS])
+
+
+def bounds_of_fits(config: Mapping[str, Any]) -> dict[str, int]:
+    """Of the models and quantile regressors of a configuration, the rows that they are fitted on at most."""
+    fitted = {*config["models"], *config["quantile_models"]}
+    return {name: most for name, most in config["max_fit_rows"].items() if name in fitted}
+
+
+def fitted_on_fewer(description: Mapping[str, Any], max_fit_rows: Mapping[str, int]) -> str:
+    """Which models are fitted on fewer rows than `train` has, and on how many; empty where there are none."""
+    if not max_fit_rows:
+        return ""
+    n_train = description["rows"][TRAIN]
+    models = [f"{name} ({most})" for name, most in max_fit_rows.items() if most < n_train]
+    return FEWER.format(n_train=n_train, models=", ".join(models)) if models else ""
 
 
 def merged(groups: Sequence[Sequence[Mark]]) -> tuple[Mark, ...]:

@@ -98,13 +98,14 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Results:
         name: {"title": name.upper(), "file": f"{name}.json", "citation": "Someone (2023). Data."} for name in ROBOTS
     }
     sources["arm"]["notes"] = {"test": NOTE}
+    bounds = {"models": ["gp"], "quantile_models": [], "max_fit_rows": {"gp": 40, "rf": 10}}
     private = {"tracking_uri": "postgresql://me:secret@host/db", "data_mirror": "/private/place"}
     arguments = {
         "tables": list(tables),
         "robots": {dataset: robot_files(folder / dataset, dataset) for dataset in ROBOTS},
         "campaign_figures": folder / "tables" / "figures",
         "jobs": timed_jobs(folder / "benchmarks"),
-        "config": {"campaign": "made-up", "seed": 7, "datasets": [*ROBOTS], "sources": sources} | private,
+        "config": {"campaign": "made-up", "seed": 7, "datasets": [*ROBOTS], "sources": sources} | bounds | private,
         "titles": TITLES,
         "citation": checkout(folder.parent / "house"),
     }
