@@ -140,7 +140,7 @@ def agreement(robot: CalibratedModel, *, new_environment: bool) -> Rows:
             "Python file", (model.predict(commands), model.intervals(commands, LEVEL), model.is_outside(commands))
         )
         program = compiled(c_header(robot, [LEVEL], name="arm"), "arm", Path(folder), "-O2")
-        c = asked(program, commands, said.shape[1], level=LEVEL)
+        c = asked(program, commands, said.shape[1], level=LEVEL, failures=robot.failures is not None)
         yield compared("C header", (c.position, np.stack([c.lower, c.upper], axis=-1), c.outside))
         one = [np.asarray(robot.intervals(row, LEVEL))[0] for row in commands[:N_CALLS]]
         off = float(np.abs(np.stack(one) - bounds[:N_CALLS]).max())

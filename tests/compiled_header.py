@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import subprocess
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -35,12 +35,16 @@ int main(int argc, char **argv) {{
 
 
 class Answers(NamedTuple):
-    """Positions and bounds (n_rows, n_coordinates), and which rows are outside (n_rows,)."""
+    """Positions and bounds (n_rows, n_coordinates), which rows are outside (n_rows,), which may fail, and with what
+    probability they do, where failures are known.
+    """
 
     position: Array
     lower: Array
     upper: Array
     outside: np.ndarray
+    may_fail: np.ndarray | None = None
+    failure_probability: Array | None = None
 
 
 def compiled(header: str, name: str, folder: Path, optimised: str = "-O0") -> Path:
@@ -52,12 +56,29 @@ def compiled(header: str, name: str, folder: Path, optimised: str = "-O0") -> Pa
     return folder / name
 
 
-def asked(program: Path, commands: Array, n_coordinates: int, *, level: float, session: int | None = None) -> Answers:
-    """Answers to commands (n_rows, n_commands); with a `session` (0: one never seen) sent one after the other."""
+def asked(
+    program: Path,
+    commands: Array,
+    n_coordinates: int,
+    *,
+    level: float,
+    session: int | None = None,
+    failures: bool = False,
+) -> Answers:
+    """Answers to commands (n_rows, n_commands); with a `session` (0: one never seen) sent one after the other; with
+    `failures`, of a robot of which some are known.
+    """
     sent = np.float64(level).tobytes() + np.int32(session or 0).tobytes() + np.ascontiguousarray(commands).tobytes()
     arguments = [str(program)] if session is None else [str(program), "in order"]
     done = subprocess.run(arguments, input=sent, capture_output=True, check=True)
-    kind = np.dtype([("place", "f8", (3, n_coordinates)), ("outside", "i4")], align=True)
+    fields: list[Any] = [("place", "f8", (3, n_coordinates)), ("outside", "i4")]
+    fields += [("may_fail", "i4"), ("failure_probability", "f8")] * failures
+    kind = np.dtype(fields, align=True)
     rows = np.frombuffer(done.stdout, kind)
     position, lower, upper = np.moveaxis(rows["place"], 1, 0)
-    return Answers(position, lower, upper, rows["outside"].astype(bool))
+    answers = Answers(position, lower, upper, rows["outside"].astype(bool))
+    if not failures:
+        return answers
+    return answers._replace(
+        may_fail=rows["may_fail"].astype(bool), failure_probability=rows["failure_probability"].copy()
+    )

@@ -8,7 +8,7 @@ from functools import cache, partial
 
 import numpy as np
 
-from softkin.core.samples import Params
+from softkin.core.samples import Params, Samples
 from softkin.core.shells import command_norm
 from softkin.models import MODELS
 from softkin.models.estimators.weighted_mean import weighted_mean
@@ -16,6 +16,7 @@ from softkin.training.kinematic_model import FitSettings, fitted_model
 from softkin.uncertainty.calibrated import FittedModel, calibrated
 from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.calibration_data import Shell
+from softkin.uncertainty.failures import failure_class
 from softkin.uncertainty.held_out_difficulty import fit_difficulty
 from softkin.uncertainty.intervals import INTERVAL_METHODS
 from tests.conftest import bending_arm
@@ -95,7 +96,18 @@ def hard_somewhere() -> CalibratedModel:
     return calibrated(model, INTERVAL_METHODS["scp_held_out"], VALIDATION)
 
 
+@cache
+def failing() -> CalibratedModel:
+    """A polynomial, of an arm that keeps one pose at the commands of a slab."""
+    rows = bending_arm(600, n_markers=2, seed=5)
+    in_slab = (rows.commands[:, 0] > 0.5) & (rows.commands[:, 0] < 0.6)
+    positions = np.where(in_slab[:, None], [60.0, -60.0, 20.0, 90.0, -90.0, 30.0], rows.positions)
+    known = failure_class(Samples(rows.commands, positions))
+    assert known is not None
+    return replace(small("ridge"), failures=known)
+
+
 ROBOTS: dict[str, Callable[[], CalibratedModel]] = {name: partial(small, name) for name in MODELS}
 ROBOTS |= {"remembers": remembering, "previous": lambda: remembering("previous"), "recalibrated": recalibrated}
-ROBOTS |= {"hard somewhere": hard_somewhere}
+ROBOTS |= {"hard somewhere": hard_somewhere, "failing": failing}
 ROBOTS |= {"mean": partial(mean_of, "lr", "huber"), "mean in sessions": partial(mean_of, "remembers", "previous")}

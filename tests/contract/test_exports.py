@@ -6,6 +6,7 @@ import json
 import shutil
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -46,6 +47,7 @@ def test_a_python_file_answers_as_the_model(name: str) -> None:
         np.testing.assert_allclose(model.intervals(NEW, level), robot.intervals(NEW, level), rtol=0, atol=PARITY)
     np.testing.assert_array_equal(model.is_outside(NEW), robot.is_outside(NEW))
     assert 0 < np.asarray(robot.is_outside(NEW)).sum() < len(NEW)
+    np.testing.assert_array_equal(model.failure_probability(NEW), robot.failure_probability(NEW))
     loop, state = model.start(level=0.7), robot.start(confidence_level=0.7)
     for command in NEW[:8]:
         np.testing.assert_allclose(loop.step(command), state.step(command), rtol=0, atol=PARITY)
@@ -57,13 +59,29 @@ def test_a_c_header_answers_as_the_model(name: str, tmp_path: Path) -> None:
     robot = ROBOTS[name]()
     program = compiled(c_header(robot, LEVELS, name="arm"), "arm", tmp_path)
     n_coordinates, bounds = robot.known.truth.shape[1], np.asarray(robot.intervals(NEW, 0.7))
-    one = asked(program, NEW, n_coordinates, level=0.7)
+    ask = partial(asked, program, NEW, n_coordinates, failures=robot.failures is not None)
+    one = ask(level=0.7)
     np.testing.assert_allclose(one.position, robot.predict(NEW), rtol=0, atol=PARITY)
     np.testing.assert_allclose(one.lower, bounds[..., 0], rtol=0, atol=PARITY)
     np.testing.assert_allclose(one.upper, bounds[..., 1], rtol=0, atol=PARITY)
     np.testing.assert_array_equal(one.outside, robot.is_outside(NEW))
-    followed = asked(program, NEW, n_coordinates, level=0.9, session=0)
+    if robot.failures is not None:
+        np.testing.assert_array_equal(one.failure_probability, robot.failure_probability(NEW))
+        np.testing.assert_array_equal(one.may_fail, robot.failures.may_fail(NEW, [0.7])[0])
+        assert 0 < np.asarray(one.may_fail).sum() < len(NEW)
+    followed = ask(level=0.9, session=0)
     np.testing.assert_allclose(followed.position, robot.follow(NEW), rtol=0, atol=PARITY)
+
+
+def test_a_python_file_says_which_poses_may_fail() -> None:
+    robot, model = ROBOTS["failing"](), exported("failing")
+    assert robot.failures is not None
+    for level in LEVELS:
+        np.testing.assert_array_equal(model.may_fail(NEW, level), robot.failures.may_fail(NEW, [level])[0])
+    assert 0 < model.may_fail(NEW).sum() < len(NEW)
+    assert model.failure_probability([1e60, 0.0]) == robot.failure_probability([1e60, 0.0])
+    assert exported("ridge").failure_probability(NEW) is None
+    assert not exported("ridge").may_fail(NEW).any()
 
 
 @needs_cc

@@ -211,7 +211,7 @@ def export(
     name: Annotated[str | None, typer.Option(help="of the files and of what they define; default: the robot's")] = None,
     as_json: AsJson = False,
 ) -> None:
-    """A Python file that needs numpy alone and a C header: position, interval and `outside`, as the model says."""
+    """A numpy-only Python file and a C header: position, interval, `outside` and failures, as the model says."""
     from softkin.cli.export_model import written
 
     files = written(robot, to, [str(one) for one in form or Export], level, name)

@@ -16,6 +16,8 @@ from scipy.stats import mannwhitneyu
 
 from softkin.core.samples import TRAIN, Array, Samples
 from softkin.data.audit.gross_rows import gross_rows
+from softkin.models.plain.describe_trees import of_one_tree
+from softkin.models.plain.kernels import Node
 
 #: So many failed rows of `train` there must be, and of regular ones: each of five folds tests on some.
 FEWEST_ROWS = 10
@@ -59,8 +61,7 @@ class FailureClass:
         """Where (n_levels, n_rows) no interval around the prediction can hold at its level, since the pose fails with
         more than the miscoverage; and with more than the share of `train` that failed.
         """
-        least = np.maximum(1 - np.asarray(confidence_levels, dtype=float), self.n_failed / self.n_rows)
-        return np.asarray(self.probability(commands) > least[:, None])
+        return np.asarray(self.probability(commands) > self._least(confidence_levels)[:, None])
 
     def widened(self, bounds: Array, commands: Array, confidence_levels: Any) -> Array:
         """Bounds (n_levels, n_rows, n_coordinates, 2) in mm that hold the failed poses of `train`, too, where poses may
@@ -68,6 +69,16 @@ class FailureClass:
         """
         failed = np.stack([np.minimum(bounds[..., 0], self.lower), np.maximum(bounds[..., 1], self.upper)], axis=-1)
         return np.where(self.may_fail(commands, confidence_levels)[..., None, None], failed, bounds)
+
+    def numbers(self, confidence_levels: Any) -> Node:
+        """All that `MayFail` answers from, in plain numbers, at these levels."""
+        tree, of_nodes = self._of_nodes
+        node: Node = {"tree": of_one_tree(tree, of_nodes[:, None]), "least": self._least(confidence_levels)}
+        return node | {"lower": self.lower, "upper": self.upper}
+
+    def _least(self, confidence_levels: Any) -> Array:
+        """The probability (n_levels,) that a pose which may fail exceeds."""
+        return np.asarray(np.maximum(1 - np.asarray(confidence_levels, dtype=float), self.n_failed / self.n_rows))
 
 
 def failure_class(train: Samples, seed: int = 0) -> FailureClass | None:

@@ -61,6 +61,12 @@ def of_xgboost(estimators: Sequence[Any], known: Samples | None) -> Node:
     return _node(trees, (len(constant), -1), constant.astype(np.float64), single=True) | {"single_sums": True}
 
 
+def of_one_tree(tree: Any, values: Array) -> Node:
+    """Of one tree of scikit-learn, with other values (n_nodes, n_columns) in its nodes."""
+    one = Tree(tree.children_left, tree.children_right, tree.feature, tree.threshold, values)
+    return _node([one], (1,), np.zeros(values.shape[1]), single=True)
+
+
 def _of_scikit_learn(tree: Any, rate: float) -> Tree:
     values = rate * tree.value[:, :, 0]
     return Tree(tree.children_left, tree.children_right, tree.feature, tree.threshold, values)

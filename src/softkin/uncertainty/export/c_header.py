@@ -13,6 +13,7 @@ from softkin.models.plain.kernels import Node
 from softkin.uncertainty.export.c_nodes import c_function, n_targets
 from softkin.uncertainty.export.c_robot import (
     bounds_text,
+    failures_text,
     features_function,
     inputs_text,
     n_features,
@@ -33,17 +34,22 @@ FACE = """
 /* Levels at which intervals are stored. */
 static const double @p_levels[{n_levels}] = {{{levels}}};
 
-/* In {unit}; `outside`: nothing is promised of this command. */
+/* In {unit}; `outside`: nothing is promised of this command.{failures[0]} */
 typedef struct {{
     double position[{n_coordinates}], lower[{n_coordinates}], upper[{n_coordinates}];
     int outside;
-}} @p_answer;
+{failures[1]}}} @p_answer;
 
 /* Where a robot is in time: inputs of its last command; `session` 0: one never seen. */
 typedef struct {{
     double inputs[{n_inputs}];
 }} @p_state;
 """
+#: What is said of poses that may fail, and where it stands in an answer.
+FAILURES = (
+    "\n   `failure_probability`: that the pose fails; `may_fail`: more than 1 - level; bounds hold failed poses, too.",
+    "    int may_fail;\n    double failure_probability;\n",
+)
 CALLS = """
 /* What is wrong with a call. */
 #define @P_OK 0
@@ -99,6 +105,7 @@ def c_header(robot: Any, confidence_levels: Sequence[float] = LEVELS, *, name: s
         "n_levels": len(numbers["levels"]),
         "levels": ", ".join(map(number, numbers["levels"])),
         "unit": _plain(numbers["unit"]),
+        "failures": ("", "") if numbers["failures"] is None else FAILURES,
     }
     # Tables and functions are named while the texts are made.
     inputs, at = inputs_text(numbers, tables, n_inputs), _at(numbers, tables, n_coordinates)
@@ -147,6 +154,7 @@ def _at(numbers: Node, tables: Tables, n_coordinates: int) -> str:
             f"    for (int i = 0; i < {n_coordinates}; i++) answer->position[i] += @p_zero(inputs, i) + {zero}[i];",
             outside_text(numbers, tables),
             bounds_text(numbers, tables, n_coordinates),
+            failures_text(numbers, tables, n_coordinates),
             "}",
         ]
     )

@@ -8,6 +8,7 @@ import numpy as np
 
 from softkin.models.plain.kernels import Node
 from softkin.uncertainty.export.c_difficulty import FACTORS, difficulty_text
+from softkin.uncertainty.export.c_nodes import c_function
 from softkin.uncertainty.export.c_text import Tables, number
 
 
@@ -155,6 +156,26 @@ def bounds_text(numbers: Node, tables: Tables, n: int) -> str:
     if numbers["growths"] is not None:
         lines.append(_growth(numbers, tables, n))
     return "\n".join("    " + line for text in lines if text for line in text.splitlines())
+
+
+def failures_text(numbers: Node, tables: Tables, n: int) -> str:
+    """Lines that say whether the pose may fail, and put bounds around failed poses, too, where it may; none where no
+    failures are known that commands foretell.
+    """
+    node = numbers["failures"]
+    if node is None:
+        return ""
+    lower, upper, least = (tables.name(node[name]) for name in ("lower", "upper", "least"))
+    return f"""    {{
+        double probability[1], unused[1];
+        {c_function(node["tree"], tables)}(inputs, probability, unused);
+        answer->failure_probability = probability[0];
+        answer->may_fail = probability[0] > {least}[level];
+        for (int i = 0; answer->may_fail && i < {n}; i++) {{
+            if ({lower}[i] < answer->lower[i]) answer->lower[i] = {lower}[i];
+            if ({upper}[i] > answer->upper[i]) answer->upper[i] = {upper}[i];
+        }}
+    }}"""
 
 
 def _growth(numbers: Node, tables: Tables, n: int) -> str:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from softkin.models.plain.kernels import Node, Values
+from softkin.uncertainty.plain.may_fail import MayFail
 from softkin.uncertainty.plain.robot import PlainRobot
 
 #: Arithmetic on larger numbers overflows.
@@ -25,7 +26,8 @@ class Model:
 
     def __init__(self, numbers: Node) -> None:
         self.robot, self.levels = PlainRobot(numbers), [float(level) for level in numbers["levels"]]
-        self.numbers = numbers
+        self.numbers, failures = numbers, numbers["failures"]
+        self.failures = None if failures is None else MayFail(failures)
 
     def predict(self, commands: Any) -> Values:
         """Positions (n_rows, n_coordinates)."""
@@ -33,27 +35,39 @@ class Model:
 
     def intervals(self, commands: Any, level: float = 0.9) -> Values:
         """Lower and upper bounds (n_rows, n_coordinates, 2) at one of the `levels`."""
-        return self._answer(self._checked(commands), self._table(level))[1]
+        return self._answer(self._checked(commands), self._place(level))[1]
 
     def is_outside(self, commands: Any) -> Any:
         """Which commands (n_rows,) lie where nothing is promised."""
         rows = self._checked(commands)
         return self.robot.outside(rows, self.robot.norms(rows))
 
+    def failure_probability(self, commands: Any) -> Values | None:
+        """Probability (n_rows,) that the pose fails; None: no failures are known that commands foretell."""
+        rows = self._checked(commands)
+        return None if self.failures is None else self.failures.probability(rows)
+
+    def may_fail(self, commands: Any, level: float = 0.9) -> Any:
+        """Which commands (n_rows,) fail with more than 1 - level: there, intervals hold failed poses, too."""
+        rows, place = self._checked(commands), self._place(level)
+        return np.zeros(len(rows), dtype=bool) if self.failures is None else self.failures.at(rows, place)
+
     def start(self, session: int | None = None, level: float = 0.9) -> Loop:
         """The robot at rest, for a control loop: `loop.step(command)`."""
         known = [] if self.robot.memory is None else [int(one) for one in self.robot.memory["sessions"]]
         if session is not None and session not in known:
             raise ValueError(f"no session {session} in its recording ({known}); leave the session out")
-        return Loop(self, 0 if session is None else session, self._table(level))
+        return Loop(self, 0 if session is None else session, self._place(level))
 
-    def _answer(self, inputs: Values, table: Node) -> tuple[Values, Values]:
+    def _answer(self, inputs: Values, place: int) -> tuple[Values, Values]:
+        table = self.numbers["tables"][place]
         positions, spread = self.robot.placed(inputs)
         commands = inputs[:, : self.numbers["n_commands"]]
         norms = self.robot.norms(commands)
         bounds = self.robot.in_domain(inputs, positions, spread, table)
         outside = self.robot.outside(commands, norms)
-        return positions, self.robot.everywhere(bounds, positions, outside, norms, table)[0]
+        bounds = self.robot.everywhere(bounds, positions, outside, norms, table)[0]
+        return positions, bounds if self.failures is None else self.failures.widened(bounds, commands, place)
 
     def _checked(self, commands: Any) -> Values:
         rows, n_commands = np.atleast_2d(np.asarray(commands)), self.numbers["n_commands"]
@@ -64,17 +78,17 @@ class Model:
             raise ValueError(f"row {int(np.argmin((np.abs(rows) <= LARGEST).all(axis=1)))} has no finite number")
         return rows
 
-    def _table(self, level: float) -> Node:
+    def _place(self, level: float) -> int:
         if level not in self.levels:
             raise ValueError(f"{level!r} is none of the stored levels {self.levels}; export the model with it")
-        return dict(self.numbers["tables"][self.levels.index(level)])
+        return self.levels.index(level)
 
 
 class Loop:
     """A robot followed through time, from rest."""
 
-    def __init__(self, model: Model, session: int, table: Node) -> None:
-        self.model, self.session, self.table, self.memory = model, float(session), table, model.robot.memory
+    def __init__(self, model: Model, session: int, place: int) -> None:
+        self.model, self.session, self.place, self.memory = model, float(session), place, model.robot.memory
         if self.memory is not None:
             self.previous = self.memory["rest"]
             self.plays = np.tile(self.previous, (len(self.memory["halves"]), 1))
@@ -89,7 +103,7 @@ class Loop:
             self.plays = self.model.robot.after(sent, self.plays)
             inputs = np.concatenate([sent, self.previous, self.plays.ravel(), [self.session]])[None]
             self.previous = sent
-        positions, bounds = self.model._answer(inputs, self.table)
+        positions, bounds = self.model._answer(inputs, self.place)
         return positions[0], bounds[0, :, 0], bounds[0, :, 1]
 
 

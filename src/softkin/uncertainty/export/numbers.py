@@ -38,12 +38,6 @@ def exported_numbers(robot: Any, confidence_levels: Sequence[float] = LEVELS, *,
             where=robot.dataset,
             fix="deploy another of interval_methods",
         )
-    if robot.failures is not None:
-        raise ConfigError(
-            "its intervals hold failed poses where commands may fail, which cannot be written as plain numbers yet",
-            where=robot.dataset,
-            fix="ask the model itself",
-        )
     if not numbers["members"]:
         estimator_numbers(robot.estimator, robot.train, has_spread=False)  # says why
     if "centre" not in numbers["surroundings"]:
@@ -58,6 +52,7 @@ def exported_numbers(robot: Any, confidence_levels: Sequence[float] = LEVELS, *,
         "model": f"{robot.spec.title} ({robot.preset}), {robot.method.title}",
         "levels": levels,
         "tables": [prepared.table((level,)) for level in levels],
+        "failures": None if robot.failures is None else robot.failures.numbers(levels),
     }
     if (count := numbers_in(numbers)) > most:
         raise ConfigError(

@@ -14,7 +14,7 @@ from softkin.core.geometry import constant_curvature
 from softkin.models.plain import evaluate, kernels, spaces
 from softkin.uncertainty.export import face
 from softkin.uncertainty.export.numbers import LEVELS, exported_numbers
-from softkin.uncertainty.plain import near_errors
+from softkin.uncertainty.plain import may_fail, near_errors
 from softkin.uncertainty.plain import robot as plain_robot
 
 #: Numbers at most of a Python file, 300 MB.
@@ -25,14 +25,14 @@ FUNCTIONS: tuple[Callable[..., Any], ...] = (
     constant_curvature._sinc,
     constant_curvature._sinc_slope,
 )
-MODULES: tuple[ModuleType, ...] = (kernels, evaluate, spaces, near_errors, plain_robot, face)
+MODULES: tuple[ModuleType, ...] = (kernels, evaluate, spaces, near_errors, plain_robot, may_fail, face)
 HEAD = '''"""{dataset}: {model}; written by softkin {version}. It needs numpy alone.
 
     from {name} import model
     model.predict(commands)           # positions in {unit}, a row per command: columns {commands}
     model.intervals(commands, 0.9)    # lower and upper bounds in {unit}, at the levels {levels}
     model.is_outside(commands)        # where nothing is promised
-    loop = model.start()              # a control loop: position, lower, upper = loop.step(command)
+{failures}    loop = model.start()              # a control loop: position, lower, upper = loop.step(command)
 
 Coordinates: {coordinates}.
 """
@@ -51,6 +51,10 @@ SMALL_ANGLE = {small_angle}
 
 '''
 
+FAILURES = """    model.failure_probability(commands)   # that the pose fails
+    model.may_fail(commands, 0.9)     # where that is more than 1 - level: intervals hold failed poses, too
+"""
+
 
 def python_file(robot: Any, confidence_levels: Sequence[float] = LEVELS, *, name: str) -> str:
     """The text of the file; `name` is that of the module, by which it is imported.
@@ -67,6 +71,7 @@ def python_file(robot: Any, confidence_levels: Sequence[float] = LEVELS, *, name
         version=__version__,
         small_angle=constant_curvature.SMALL_ANGLE,
         name=name,
+        failures="" if numbers["failures"] is None else FAILURES,
         **{key: _plain(text) for key, text in shown.items()},
     )
     parts = [*(inspect.getsource(function) for function in FUNCTIONS), *map(_body, MODULES)]
