@@ -143,8 +143,11 @@ def agreement(robot: CalibratedModel, *, new_environment: bool) -> Rows:
         c = asked(program, commands, said.shape[1], level=LEVEL, failures=robot.failures is not None)
         yield compared("C header", (c.position, np.stack([c.lower, c.upper], axis=-1), c.outside))
         one = [np.asarray(robot.intervals(row, LEVEL))[0] for row in commands[:N_CALLS]]
-        off = float(np.abs(np.stack(one) - bounds[:N_CALLS]).max())
-        yield {"robot": title(robot), "way": "model, one row against many", "where": "difference", "mm": off}
+        of_c = np.stack([c.lower, c.upper], axis=-1)[:N_CALLS]
+        against = {"model, one row against many": bounds[:N_CALLS], "C header against the model's one row": of_c}
+        for way, other in against.items():
+            off = float(np.abs(np.stack(one) - other).max())
+            yield {"robot": title(robot), "way": way, "where": "difference", "mm": off}
         if new_environment:
             yield compared("Python file, numpy alone", in_new_environment(Path(folder), commands))
 

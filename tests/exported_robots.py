@@ -107,6 +107,19 @@ def failing() -> CalibratedModel:
     return replace(small("ridge"), failures=known)
 
 
+@cache
+def noiseless() -> CalibratedModel:
+    """A Gaussian process of an arm without noise: its weights are large, of either sign, and cancel."""
+    commands = np.random.default_rng(0).uniform(-1, 1, (200, 2))
+    u, v = commands.T
+    rows = Samples(commands, np.column_stack([60 * np.sin(u), 60 * np.sin(v), 100 * np.cos(u) * np.cos(v)]))
+    train, held_out = rows.take(np.arange(200) < 150), rows.take(np.arange(200) >= 150)
+    params: Params = {"kernel": "rbf", "trend": "linear", "max_iter": 15, "initial_length_scale": 8.0}
+    settings = FitSettings(params | {"initial_noise": 1e-9}, True, 0, 1)
+    model = FittedModel("noiseless", MODELS["gp"], "tuned", fitted_model(MODELS["gp"], settings, train), train)
+    return calibrated(model, INTERVAL_METHODS["scp_crepes"], held_out)
+
+
 ROBOTS: dict[str, Callable[[], CalibratedModel]] = {name: partial(small, name) for name in MODELS}
 ROBOTS |= {"remembers": remembering, "previous": lambda: remembering("previous"), "recalibrated": recalibrated}
 ROBOTS |= {"hard somewhere": hard_somewhere, "failing": failing}

@@ -36,9 +36,10 @@ Many commands at once, in ms:
 """
 FOOT = """
 `outside` differs between model and exports on {differs} of these commands. *One row against many* is how far the
-model's own answer to one command is from its answer to the same command among many: sums of another order. A Gaussian
-process of a nearly noiseless robot weighs its rows with large numbers of either sign, and is known no better than that;
-there, no export can be nearer to it. [0035](decisions/0035-models-are-exported-as-plain-numbers.md) says why.
+model's own answer to one command is from its answer to the same command among many, which scikit-learn sums: a Gaussian
+process of a nearly noiseless robot weighs its rows with large numbers of either sign, and no export can be nearer to
+its sums. One command and exports are answered from an expansion that does not cancel:
+[0035](decisions/0035-models-are-exported-as-plain-numbers.md).
 """
 
 

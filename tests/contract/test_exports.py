@@ -15,12 +15,13 @@ import pytest
 
 from softkin.models.plain.evaluate import KINDS
 from softkin.models.plain.spaces import SPACES
+from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.export.c_header import c_header
 from softkin.uncertainty.export.c_nodes import WRITERS
 from softkin.uncertainty.export.c_robot import SPACE_WRITERS
 from softkin.uncertainty.export.python_file import python_file
 from tests.compiled_header import asked, compiled
-from tests.exported_robots import NEW, ROBOTS
+from tests.exported_robots import NEW, ROBOTS, noiseless
 
 LEVELS = (0.7, 0.9)
 #: mm.
@@ -29,8 +30,12 @@ needs_cc = pytest.mark.skipif(shutil.which("cc") is None, reason="there is no C 
 
 
 def exported(name: str) -> Any:
+    return exported_robot(ROBOTS[name]())
+
+
+def exported_robot(robot: CalibratedModel) -> Any:
     namespace: dict[str, Any] = {"__name__": "exported"}
-    exec(compile(python_file(ROBOTS[name](), LEVELS, name="exported"), "exported.py", "exec"), namespace)
+    exec(compile(python_file(robot, LEVELS, name="exported"), "exported.py", "exec"), namespace)
     return namespace["model"]
 
 
@@ -82,6 +87,23 @@ def test_a_python_file_says_which_poses_may_fail() -> None:
     assert model.failure_probability([1e60, 0.0]) == robot.failure_probability([1e60, 0.0])
     assert exported("ridge").failure_probability(NEW) is None
     assert not exported("ridge").may_fail(NEW).any()
+
+
+@needs_cc
+def test_sums_that_cancel_are_the_same_in_all_languages_at_ten_thousand_commands(tmp_path: Path) -> None:
+    robot, model = noiseless(), exported_robot(noiseless())
+    commands = np.random.default_rng(1).uniform(-1.4, 1.4, (10_000, 2))
+    program = compiled(c_header(robot, LEVELS, name="arm"), "arm", tmp_path)
+    c, bounds = asked(program, commands, 3, level=0.9), model.intervals(commands, 0.9)
+    assert 0 < c.outside.sum() < len(commands)
+    np.testing.assert_array_equal(c.outside, robot.is_outside(commands))
+    np.testing.assert_allclose(c.position, model.predict(commands), rtol=0, atol=PARITY)
+    np.testing.assert_allclose(np.stack([c.lower, c.upper], axis=-1), bounds, rtol=0, atol=PARITY)
+    for row in range(0, len(commands), 100):
+        np.testing.assert_allclose(c.position[row], robot.predict(commands[row])[0], rtol=0, atol=PARITY)
+        np.testing.assert_allclose(bounds[row], robot.intervals(commands[row], 0.9)[0], rtol=0, atol=PARITY)
+    kernel = robot._prepared.numbers["members"][0]["regressor"]["inner"]
+    assert "expansion" in kernel
 
 
 @needs_cc

@@ -11,6 +11,9 @@ from softkin.uncertainty.export.c_header import c_header
 from softkin.uncertainty.export.c_text import identifier
 from softkin.uncertainty.export.numbers import LEVELS
 from softkin.uncertainty.export.python_file import python_file
+from softkin.uncertainty.export.rounding import known_to
+
+__all__ = ["FORMS", "known_to", "written"]
 
 #: Form -> ending of its file, and what writes its text of a model, its levels and the name of what it defines.
 FORMS: dict[str, tuple[str, Callable[[CalibratedModel, Sequence[float], str], str]]] = {

@@ -9,6 +9,7 @@ import numpy as np
 
 from softkin.core.errors import ConfigError
 from softkin.core.samples import Samples
+from softkin.models.plain.describe_expansion import expanded
 from softkin.models.plain.kernels import Node
 
 
@@ -25,6 +26,8 @@ def of_gaussian_process(estimators: Sequence[Any], known: Samples | None) -> Nod
         "weights": weights,
         "constant": np.zeros(weights.shape[1]),
     }
+    if (parts := expanded(points, terms, weights)) is not None:
+        node["expansion"] = parts
     if known is not None:
         trained = posterior.y_train_.reshape(weights.shape)
         node |= {"factor": posterior.L_, "noise": noise, "factors": np.sqrt((trained * weights).mean(axis=0))}

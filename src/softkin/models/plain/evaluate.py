@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from softkin.models.plain.expansion import expansion
 from softkin.models.plain.kernels import SHAPES, Node, Solver, Values, blockwise, prior
 
 Answer = tuple[Values, "Values | None"]
@@ -52,7 +53,8 @@ def _polynomial(node: Node, solver: Solver) -> Regressor:
 def _kernel(node: Node, solver: Solver) -> Regressor:
     """Sum over `points` (n, n_features) of kernel times `weights` (n, n_targets), plus `constant`; the kernel is the
     sum of `terms`. With `factor` (n, n), the lower Cholesky factor of the points' kernel, the standard deviation is
-    that of a Gaussian process with `noise`, in units of `factors` (n_targets,).
+    that of a Gaussian process with `noise`, in units of `factors` (n_targets,). With an `expansion`, targets are those
+    of its parts where it holds.
     """
     points, weights, constant = node["points"], node["weights"], node["constant"]
     terms = [SHAPES[term["shape"]](term, points) for term in node["terms"]]
@@ -71,7 +73,25 @@ def _kernel(node: Node, solver: Solver) -> Regressor:
         variance -= np.einsum("ij,ji->i", shares.T, shares)
         return targets, np.sqrt(np.maximum(variance, 0.0))[:, None] * node["factors"]
 
-    return _in_parts(answer, max(1, NUMBERS_AT_ONCE // (points.size + len(points))))
+    step = max(1, NUMBERS_AT_ONCE // (points.size + len(points)))
+    return _in_parts(_expanded(node, answer) if "expansion" in node else answer, step)
+
+
+def _expanded(node: Node, direct: Regressor) -> Regressor:
+    """The same, with the targets of the expansion where it holds; without it there, where no spread is asked for."""
+    of_powers, constant, has_spread = expansion(node["expansion"]), node["constant"], "factor" in node
+
+    def answer(x: Values) -> Answer:
+        targets, holds = of_powers(x)
+        targets += constant
+        if has_spread:
+            summed, spread = direct(x)
+            return np.where(holds[:, None], targets, summed), spread
+        if not holds.all():
+            targets[~holds] = direct(x[~holds])[0]
+        return targets, None
+
+    return answer
 
 
 def _network(node: Node, solver: Solver) -> Regressor:

@@ -130,6 +130,7 @@ def _head(numbers: Node) -> str:
         f"Coordinates in {numbers['unit']}: {', '.join(numbers['coordinates'])}.\n"
         "   @p_predict(command, level, &answer) is 0 where all is well; link with -lm."
     )
+    text += f"\n   {numbers['known_to']}" if numbers["known_to"] else ""
     return _plain(text)
 
 

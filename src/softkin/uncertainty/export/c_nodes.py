@@ -58,7 +58,8 @@ def _polynomial(node: Node, tables: Tables) -> str:
 
 def _kernel(node: Node, tables: Tables) -> str:
     n, d = node["points"].shape
-    body = f"double k[{n}], z[{d}];\n(void)s;\n(void)z;\nfor (int i = 0; i < {n}; i++) k[i] = 0.0;\n"
+    body = _started(node, tables) + (_expansion(node, tables) if "expansion" in node else "")
+    body += f"double k[{n}], z[{d}];\n(void)s;\n(void)z;\nfor (int i = 0; i < {n}; i++) k[i] = 0.0;\n"
     prior = [number(node["noise"])] if "factor" in node else []
     for term in node["terms"]:
         shape, constant, points, at = term["shape"], number(term["constant"]), node["points"], "x"
@@ -74,7 +75,7 @@ def _kernel(node: Node, tables: Tables) -> str:
                 points, at = points / term["lengths"], "z"
                 body += f"for (int i = 0; i < {d}; i++) z[i] = x[i] / {tables.name(term['lengths'])}[i];\n"
         body += f"softkin_{shape}({at}, {tables.name(points)}, {n}, {d}, {constant}{extra}, k);\n"
-    body += _started(node, tables)
+    body += "if (!near) " if "expansion" in node else ""
     body += f"softkin_weigh(k, {tables.name(node['weights'])}, {n}, {n_targets(node)}, y);\n"
     if "factor" not in node:
         return body
@@ -82,6 +83,20 @@ def _kernel(node: Node, tables: Tables) -> str:
     body += f"double variance = {' + '.join(prior)} - softkin_explained(k, {tables.name(packed)}, {n});\n"
     body += "double deviation = variance > 0.0 ? sqrt(variance) : 0.0;\n"
     return body + f"for (int t = 0; t < {n_targets(node)}; t++) s[t] = deviation * {tables.name(node['factors'])}[t];"
+
+
+def _expansion(node: Node, tables: Tables) -> str:
+    """Lines that add what the powers say where they hold, and say whether they do, `near`."""
+    d, checks, calls, room = node["points"].shape[1], [], "", 1
+    for part in node["expansion"]:
+        lengths, powers, weights = (tables.name(part[name]) for name in ("lengths", "powers", "weights"))
+        n_terms, degree = len(part["powers"]), int(part["powers"].max())
+        room = max(room, d * (degree + 1))
+        checks.append(f"softkin_within(x, {lengths}, {d}, {number(part['reach'])})")
+        which = f"{powers}, {n_terms}, {degree}, {weights}, {n_targets(node)}"
+        calls += f"    softkin_powers(x, {lengths}, {d}, {number(part['rate'])}, {which}, table, y);\n"
+    body = f"int near = {' && '.join(checks)};\nif (near) {{\n    double table[{room}];\n{calls}"
+    return body + ("}\n" if "factor" in node else "    return;\n}\n")
 
 
 def _network(node: Node, tables: Tables) -> str:

@@ -10,6 +10,7 @@ from softkin.core.samples import command_columns
 from softkin.models.plain.describe import numbers_in
 from softkin.models.plain.kernels import Node
 from softkin.uncertainty import calls
+from softkin.uncertainty.export.rounding import known_to
 from softkin.uncertainty.plain.describe_robot import estimator_numbers
 from softkin.uncertainty.prepared import Prepared
 
@@ -50,6 +51,7 @@ def exported_numbers(robot: Any, confidence_levels: Sequence[float] = LEVELS, *,
         "coordinates": robot.names.coordinates,
         "unit": robot.names.unit,
         "model": f"{robot.spec.title} ({robot.preset}), {robot.method.title}",
+        "known_to": known_to(robot),
         "levels": levels,
         "tables": [prepared.table((level,)) for level in levels],
         "failures": None if robot.failures is None else robot.failures.numbers(levels),

@@ -11,7 +11,7 @@ from typing import Any
 
 from softkin import __version__
 from softkin.core.geometry import constant_curvature
-from softkin.models.plain import evaluate, kernels, spaces
+from softkin.models.plain import evaluate, expansion, kernels, spaces
 from softkin.uncertainty.export import face
 from softkin.uncertainty.export.numbers import LEVELS, exported_numbers
 from softkin.uncertainty.plain import may_fail, near_errors
@@ -25,7 +25,7 @@ FUNCTIONS: tuple[Callable[..., Any], ...] = (
     constant_curvature._sinc,
     constant_curvature._sinc_slope,
 )
-MODULES: tuple[ModuleType, ...] = (kernels, evaluate, spaces, near_errors, plain_robot, may_fail, face)
+MODULES: tuple[ModuleType, ...] = (kernels, expansion, evaluate, spaces, near_errors, plain_robot, may_fail, face)
 HEAD = '''"""{dataset}: {model}; written by softkin {version}. It needs numpy alone.
 
     from {name} import model
@@ -34,7 +34,7 @@ HEAD = '''"""{dataset}: {model}; written by softkin {version}. It needs numpy al
     model.is_outside(commands)        # where nothing is promised
 {failures}    loop = model.start()              # a control loop: position, lower, upper = loop.step(command)
 
-Coordinates: {coordinates}.
+Coordinates: {coordinates}. {known_to}
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ def python_file(robot: Any, confidence_levels: Sequence[float] = LEVELS, *, name
     """
     numbers = exported_numbers(robot, confidence_levels, most=MOST_NUMBERS)
     shown = {key: ", ".join(map(str, numbers[key])) for key in ("commands", "levels", "coordinates")}
-    shown["unit"] = numbers["unit"]
+    shown |= {key: numbers[key] for key in ("unit", "known_to")}
     head = HEAD.format(
         dataset=_plain(robot.dataset),
         model=numbers["model"],

@@ -66,6 +66,32 @@ static inline void softkin_product(const double *z, const double *points, int n,
     }
 }
 
+/* Whether x, in units of lengths, is no farther than reach. */
+static inline int softkin_within(const double *x, const double *lengths, int n, double reach) {
+    double sum = 0.0;
+    for (int i = 0; i < n; i++) sum += x[i] / lengths[i] * (x[i] / lengths[i]);
+    return sum <= reach * reach;
+}
+
+/* Products of powers of z, x in units of lengths, weighed, times exp(-rate |z|^2); table has n * (degree + 1) places. */
+static inline void softkin_powers(const double *x, const double *lengths, int n, double rate, const int *powers,
+                                  int n_terms, int degree, const double *weights, int n_targets, double *table,
+                                  double *y) {
+    double squares = 0.0, envelope;
+    for (int i = 0; i < n; i++) {
+        double z = x[i] / lengths[i], *of_one = table + i * (degree + 1);
+        of_one[0] = 1.0;
+        for (int k = 0; k < degree; k++) of_one[k + 1] = of_one[k] * z;
+        squares += z * z;
+    }
+    envelope = exp(-rate * squares);
+    for (int term = 0; term < n_terms; term++) {
+        double value = envelope;
+        for (int i = 0; i < n; i++) value *= table[i * (degree + 1) + powers[term * n + i]];
+        for (int target = 0; target < n_targets; target++) y[target] += value * weights[term * n_targets + target];
+    }
+}
+
 static inline void softkin_weigh(const double *k, const double *weights, int n, int n_targets, double *y) {
     for (int i = 0; i < n; i++)
         for (int target = 0; target < n_targets; target++)
