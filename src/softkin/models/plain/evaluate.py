@@ -7,11 +7,13 @@ n_features) with targets (n_rows, n_targets) and, where the node has the numbers
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import cache
 
 import numpy as np
 
 from softkin.models.plain.expansion import expansion
 from softkin.models.plain.kernels import SHAPES, Node, Solver, Values, blockwise, prior
+from softkin.models.plain.leaves import Whole, leaf_finder
 
 Answer = tuple[Values, "Values | None"]
 Regressor = Callable[[Values], Answer]
@@ -150,16 +152,22 @@ def _trees(node: Node, solver: Solver) -> Regressor:
     """
     roots, feature, threshold, left, right = (node[name] for name in ("roots", "feature", "threshold", "left", "right"))
     leaf, values, constant = node["leaf"], node["values"], node["constant"]
+    finder = cache(lambda: leaf_finder(node))
 
-    def answer(x: Values) -> Answer:
-        if node["single"]:
-            x = x.astype(np.float32).astype(np.float64)
+    def leaves(x: Values) -> Whole:
+        if len(x) == 1 and (of_one := finder()) is not None:
+            return of_one(x[0])[None]
         places = np.tile(roots, (len(x), *[1] * roots.ndim))
         rows = np.arange(len(x)).reshape(-1, *[1] * roots.ndim)
         for _ in range(node["depth"]):
             goes_left = x[rows, feature[places]] <= threshold[places]
             places = np.where(goes_left, left[places], right[places])
-        found = values[leaf[places]]
+        return np.asarray(leaf[places])
+
+    def answer(x: Values) -> Answer:
+        if node["single"]:
+            x = x.astype(np.float32).astype(np.float64)
+        found = values.take(leaves(x), axis=0)
         if roots.ndim == 1:
             spread = found.std(axis=1) if node["has_spread"] else None
             return found.mean(axis=1) + constant, spread

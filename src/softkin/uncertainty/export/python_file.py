@@ -11,7 +11,7 @@ from typing import Any
 
 from softkin import __version__
 from softkin.core.geometry import constant_curvature
-from softkin.models.plain import evaluate, expansion, kernels, spaces
+from softkin.models.plain import evaluate, expansion, kernels, leaves, spaces
 from softkin.uncertainty.export import face
 from softkin.uncertainty.export.numbers import LEVELS, exported_numbers
 from softkin.uncertainty.plain import may_fail, near_errors
@@ -25,8 +25,18 @@ FUNCTIONS: tuple[Callable[..., Any], ...] = (
     constant_curvature._sinc,
     constant_curvature._sinc_slope,
 )
-MODULES: tuple[ModuleType, ...] = (kernels, expansion, evaluate, spaces, near_errors, plain_robot, may_fail, face)
-HEAD = '''"""{dataset}: {model}; written by softkin {version}. It needs numpy alone.
+MODULES: tuple[ModuleType, ...] = (
+    kernels,
+    expansion,
+    leaves,
+    evaluate,
+    spaces,
+    near_errors,
+    plain_robot,
+    may_fail,
+    face,
+)
+HEAD = '''"""{dataset}: {model}; written by softkin {version}. It needs numpy alone, 2.0 or later.
 
     from {name} import model
     model.predict(commands)           # positions in {unit}, a row per command: columns {commands}
@@ -42,7 +52,9 @@ from __future__ import annotations
 import base64
 import json
 import zlib
+from bisect import bisect_left
 from collections.abc import Callable, Iterator
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
