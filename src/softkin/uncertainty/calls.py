@@ -210,8 +210,8 @@ def _numbers_among(array: Any, what: str, where: str, fix: str) -> Array:
 
 def check_finite(rows: Array, given: Rows, labels: Sequence[str], where: str) -> None:
     """Finite, and not so large that arithmetic overflows; says which row and which column."""
-    # The sum of a few numbers is faster than a comparison of each; it is finite where all are, or nearly overflows.
-    if np.isfinite(total := np.abs(rows).sum()) and total <= MAX_MAGNITUDE:
+    # The sum of a few numbers is faster than a comparison of each; it is no number where one of them is none.
+    if np.abs(rows).sum() <= MAX_MAGNITUDE:
         return
     wrong = ~(np.abs(rows) <= MAX_MAGNITUDE)
     if not wrong.any():

@@ -36,6 +36,7 @@ class State:
                 where=robot.dataset,
                 fix="leave the session out; a new one has the average zero until it is recalibrated",
             )
+        self.halves: Array | float = 0.0 if self.estimator is None else self.estimator.robot.half_widths()
         self.memory: Array | None = None
         self.last: Array | None = None
 
@@ -89,8 +90,8 @@ class State:
     def step(self, command: calls.Rows) -> Step:
         """Send one command (n_commands,): position and interval."""
         inputs = self.input_of(command)
-        predicted = self.robot.predict(inputs)
-        bounds = self.robot.intervals(inputs, self.levels, predicted)[0, 0]
+        predicted = self.robot._predicted(inputs)
+        bounds = self.robot._bounds(inputs, self.levels, predicted)[0, 0]
         return Step(predicted[0], bounds[:, 0], bounds[:, 1])
 
     def _checked(self, commands: calls.Rows) -> Array:
@@ -102,9 +103,20 @@ class State:
         before, self.last = self.last, commands[-1]
         if self.estimator is None:
             return commands
+        if len(commands) == 1:
+            return self._after_one(commands[0], self.estimator.robot.rest if before is None else before)
         memory = self.estimator.robot.along(commands, self.memory, before)
         self.memory = memory[-1]
         return np.column_stack([commands, memory, np.full(len(commands), self.session)])
+
+    def _after_one(self, command: Array, previous: Array) -> Array:
+        """The same of one command (n_commands,), without what many need."""
+        n, halves = len(command), self.halves
+        plays = previous if self.memory is None else self.memory[n:].reshape(-1, n)
+        moved = np.minimum(np.maximum(plays, command - halves), command + halves)
+        inputs = np.concatenate([command, previous, moved.ravel(), [self.session]])
+        self.memory = inputs[n:-1]
+        return inputs[None]
 
 
 def error_of(state: State, moving: NDArray[np.bool_]) -> Callable[[calls.Rows, calls.Rows], Array]:

@@ -68,14 +68,14 @@ class Prepared:
             bounds = self._by_method(inputs, levels, predicted)
         if not self.beyond.has_shells:
             return bounds
-        outside, norms = self.beyond.place(commands)
+        outside, norms = self._place(commands)
         return self.plain.everywhere(bounds, predicted, outside, norms, table)
 
     def is_outside(self, commands: Array) -> NDArray[np.bool_]:
         """Which commands (n_rows, n_commands) lie in extrapolation, (n_rows,); as
         `in_domain_and_extrapolation.is_in_extrapolation`.
         """
-        return self.beyond.is_outside(commands)
+        return self._place(commands)[0]
 
     def make_ready(self, levels: Levels) -> None:
         """Work everything out now, for these levels, so that the first command takes no longer than the others."""
@@ -150,6 +150,13 @@ class Prepared:
         """Spread (n_rows, n_coordinates) in mm of the estimator."""
         found = self._placed(inputs)[1] if self.plain.members else None
         return spread_of(self.robot.spec, self.robot.estimator, self.robot.train, inputs) if found is None else found
+
+    def _place(self, commands: Array) -> tuple[NDArray[np.bool_], Array]:
+        """As `Beyond.place`; the norm of one command from plain numbers."""
+        if len(commands) > 1 or "centre" not in self.plain.surroundings:
+            return self.beyond.place(commands)
+        norms = self.plain.norms(commands)
+        return np.asarray(self.beyond.surroundings.are_far(commands) | (norms > self.beyond.radius)), norms
 
     def _placed(self, inputs: Array) -> tuple[Array, Array | None]:
         """Positions and spreads from plain numbers; those of the last row are kept."""

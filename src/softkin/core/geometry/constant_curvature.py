@@ -37,10 +37,11 @@ def from_arcs(arcs: Array) -> Array:
 
     x = s (1 - cos b) / b * b_x / b = s b_x / 2 (sin(b / 2) / (b / 2))^2, z = s sin(b) / b; sinc needs no division by 0.
     """
-    b_x, b_y, length = np.moveaxis(arcs, -1, 0)
+    b_x, b_y, length = arcs[..., 0], arcs[..., 1], arcs[..., 2]
     bending = np.hypot(b_x, b_y)
-    sideways = length / 2 * np.square(_sinc(bending / 2))
-    return np.stack([sideways * b_x, sideways * b_y, length * _sinc(bending)], axis=-1)
+    sideways, points = length / 2 * np.square(_sinc(bending / 2)), np.empty_like(arcs)
+    points[..., 0], points[..., 1], points[..., 2] = sideways * b_x, sideways * b_y, length * _sinc(bending)
+    return points
 
 
 def spread_of_points(arcs: Array, spread: Array, axes: Array) -> Array:
@@ -70,8 +71,10 @@ def has_arc(points: Array) -> Array:
 
 
 def _sinc(angle: Array) -> Array:
-    """sin(angle) / angle."""
-    return np.asarray(np.sinc(angle / np.pi))
+    """sin(angle) / angle: numpy.sinc(angle / pi) to the bit, without what it asks of other types of numbers."""
+    angle = np.pi * (angle / np.pi)
+    divisor = np.where(angle, angle, 1e-16)
+    return np.asarray(np.sin(divisor) / divisor)
 
 
 def _sinc_slope(angle: Array) -> Array:

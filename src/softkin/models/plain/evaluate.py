@@ -40,13 +40,23 @@ def _polynomial(node: Node, solver: Solver) -> Regressor:
         node[name] for name in ("factors", "mean", "scale", "weights", "constant")
     )
     is_plain = not mean.any() and bool((scale == 1).all())
+    is_linear = factors.shape[1] == 1 and np.array_equal(factors[:, 0], np.arange(len(factors)))
+    of_one = np.ascontiguousarray(factors.T)
 
-    def answer(x: Values) -> Answer:
+    def terms_of(x: Values) -> Values:
+        if is_linear and x.shape[1] == len(factors):
+            return x
         extended = np.ones((len(x), x.shape[1] + 1))
         extended[:, :-1] = x
+        if len(x) == 1:
+            return np.asarray(np.multiply.reduce(extended[0].take(of_one), axis=0)[None])
         terms = extended[:, factors[:, 0]]
         for column in factors.T[1:]:
             terms *= extended[:, column]
+        return np.asarray(terms)
+
+    def answer(x: Values) -> Answer:
+        terms = terms_of(x)
         return (terms if is_plain else (terms - mean) / scale) @ weights + constant, None
 
     return answer
@@ -117,6 +127,8 @@ def _network(node: Node, solver: Solver) -> Regressor:
 
 def _mean(node: Node, solver: Solver) -> Regressor:
     """The mean of `members` by `shares`, which add up to 1; the spread is that of the mixture."""
+    if _are_alike(node["members"]):
+        return _networks(node)
     members, shares = [regressor(member, solver) for member in node["members"]], node["shares"]
 
     def answer(x: Values) -> Answer:
@@ -129,6 +141,32 @@ def _mean(node: Node, solver: Solver) -> Regressor:
         return targets, np.sqrt(np.tensordot(shares, np.square(np.stack(spreads)) + apart, 1))
 
     return answer
+
+
+def _are_alike(members: list[Node]) -> bool:
+    """Whether they are networks of the same layers, which are told no spread of."""
+    shapes = [
+        (member["activation"], *(matrix.shape for matrix in member["weights"]))
+        for member in members
+        if member["kind"] == "network" and "factor" not in member
+    ]
+    return len(shapes) == len(members) and len(set(shapes)) == 1
+
+
+def _networks(node: Node) -> Regressor:
+    """The mean of networks that are alike, all in one product for each layer."""
+    members, shares = node["members"], node["shares"]
+    activate, layers = ACTIVATIONS[members[0]["activation"]], range(len(members[0]["weights"]))
+    weights = [np.stack([member["weights"][layer] for member in members]) for layer in layers]
+    biases = [np.stack([member["biases"][layer] for member in members])[:, None] for layer in layers]
+
+    def answer(x: Values) -> Answer:
+        for matrices, bias in zip(weights[:-1], biases[:-1], strict=True):
+            x = activate(x @ matrices + bias)
+        targets = x @ weights[-1] + biases[-1]
+        return np.dot(shares, targets.reshape(len(targets), -1)).reshape(targets.shape[1:]), None
+
+    return _in_parts(answer, max(1, NUMBERS_AT_ONCE // (4 * max(matrices[:, 0].size for matrices in weights))))
 
 
 def _detrended(node: Node, solver: Solver) -> Regressor:

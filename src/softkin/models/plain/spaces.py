@@ -28,11 +28,14 @@ def space(node: Node) -> Space:
 def _scaled(node: Node) -> Space:
     """Targets times `scale` plus `mean` at the places `kept`; elsewhere `constants` (n_coordinates,)."""
     constants, kept, mean, scale = (node[name] for name in ("constants", "kept", "mean", "scale"))
+    is_whole = len(kept) == len(constants)
 
     def positions(targets: Values) -> Values:
-        result = np.tile(constants, (len(targets), 1))
+        if is_whole:
+            return np.asarray(targets * scale + mean)
+        result = constants[None].repeat(len(targets), axis=0)
         result[:, kept] = targets * scale + mean
-        return result
+        return np.asarray(result)
 
     def spread(_: Values, spreads: Values) -> Values:
         result = np.zeros((len(spreads), len(constants)))
@@ -51,14 +54,18 @@ def _arcs(node: Node) -> Space:
     origin, axes, near_constant = node["origin"], node["axes"], node["near_constant"]
     others = space(node["others"]) if "others" in node else None
 
+    is_whole = len(moving) == len(constants)
+
     def positions(targets: Values) -> Values:
-        points = np.tile(constants, (len(targets), 1, 1))
         bent = arcs.positions(targets[:, :n_arcs]).reshape(len(targets), -1, 3)
-        points[:, moving] = from_arcs(bent) @ axes.T + origin
+        points = from_arcs(bent) @ axes.T + origin
+        if not is_whole:
+            moved, points = points, constants[None].repeat(len(targets), axis=0)
+            points[:, moving] = moved
         result = points.reshape(len(targets), -1)
         if others is not None:
             result[:, near_constant] = others.positions(targets[:, n_arcs:])
-        return result
+        return np.asarray(result)
 
     def spread(targets: Values, spreads: Values) -> Values:
         points = np.zeros((len(targets), *constants.shape))

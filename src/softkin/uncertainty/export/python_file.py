@@ -14,7 +14,7 @@ from softkin.core.geometry import constant_curvature
 from softkin.models.plain import evaluate, expansion, kernels, leaves, spaces
 from softkin.uncertainty.export import face
 from softkin.uncertainty.export.numbers import LEVELS, exported_numbers
-from softkin.uncertainty.plain import may_fail, near_errors
+from softkin.uncertainty.plain import may_fail, members, near_errors
 from softkin.uncertainty.plain import robot as plain_robot
 
 #: Numbers at most of a Python file, 300 MB.
@@ -31,6 +31,7 @@ MODULES: tuple[ModuleType, ...] = (
     leaves,
     evaluate,
     spaces,
+    members,
     near_errors,
     plain_robot,
     may_fail,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from softkin.models.plain.kernels import Node, Values
@@ -51,3 +53,32 @@ def _columns(node: Node, commands: Values) -> Values:
             share = node["shares"][column]
             found[:, column] = np.maximum(share * near + (1 - share), node["least"])
     return found
+
+
+def of_one_command(node: Node) -> Callable[[Values], Values]:
+    """The function from one command (1, n_commands) to its difficulty (1, n_coordinates), as `near_errors`: what does
+    not depend on the command is worked out once, and distances are put in order once for all columns.
+    """
+    points, shares = np.ascontiguousarray(node["points"].T), node["shares"]
+    norms, mean, scale = np.sqrt((points * points).sum(axis=0)), node["mean"], node["scale"]
+    kinds = []
+    for by_norm in (False, True):
+        own = np.flatnonzero((node["by_norm"] == by_norm) & (shares > 0))
+        if len(own):
+            places = node["neighbours"][own] - 1
+            kinds.append((by_norm, own, places, np.unique(places), np.ascontiguousarray(node["errors"][:, own])))
+
+    def answer(commands: Values) -> Values:
+        row = (commands[0] - mean) / scale
+        near = np.ones(len(shares) + 1)
+        for by_norm, own, places, distinct, errors in kinds:
+            apart = np.sqrt((row * row).sum()) - norms if by_norm else points - row[:, None]
+            squares = apart * apart if by_norm else (apart * apart).sum(axis=0)
+            farthest = np.partition(squares, distinct)[places] * (1 + SAME_SHARE) + SAME
+            some = np.flatnonzero(squares <= farthest.max())
+            is_near = squares[some, None] <= farthest
+            means = (errors.take(some, axis=0) * is_near).sum(axis=0) / is_near.sum(axis=0)
+            near[own] = np.maximum(shares[own] * means + (1 - shares[own]), node["least"])
+        return near[node["column"]][None]
+
+    return answer

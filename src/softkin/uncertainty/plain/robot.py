@@ -6,10 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from softkin.models.plain.evaluate import regressor
 from softkin.models.plain.kernels import Node, Solver, Values
-from softkin.models.plain.spaces import space
-from softkin.uncertainty.plain.near_errors import near_errors
+from softkin.uncertainty.plain.members import Members
+from softkin.uncertainty.plain.near_errors import near_errors, of_one_command
 
 Mask = np.ndarray[Any, np.dtype[np.bool_]]
 #: Distances between commands that are held at a time.
@@ -24,25 +23,22 @@ class PlainRobot:
 
     def __init__(self, numbers: Node, solver: Solver | None = None) -> None:
         self.numbers, self.memory, self.growths = numbers, numbers["memory"], numbers["growths"]
-        self.members = [(one, regressor(one["regressor"], solver), space(one["space"])) for one in numbers["members"]]
+        self.members = Members(numbers, solver)
         self.surroundings, self.difficulty = numbers["surroundings"], numbers["difficulty"]
         self.points = self.surroundings["points"].T.copy()
         if self.difficulty["kind"] == "distance":
             self.neighbours = self.difficulty["points"].T.copy()
+        if self.difficulty["kind"] == "held_out":
+            self.near_errors = of_one_command(self.difficulty)
 
     def placed(self, inputs: Values) -> tuple[Values, Values | None]:
         """Positions (n_rows, n_coordinates) in mm, and spreads in mm where the bounds need them: then there is one
         member.
         """
-        parts = []
-        for node, one, of_one in self.members:
-            targets, spread = one(self._features(inputs, node))
-            parts.append(of_one.positions(targets))
-        shares = self.numbers["shares"]
-        positions = parts[0] if len(parts) == 1 else np.tensordot(shares, np.stack(parts), 1)
+        positions, spread = self.members.placed(self._whole(inputs))
         if self.memory is not None:
             positions = positions + self._zeros(inputs)
-        return positions + self.numbers["zero"], None if spread is None else of_one.spread(targets, spread)
+        return positions + self.numbers["zero"], spread
 
     def outside(self, commands: Values, norms: Values) -> Mask:
         """Which commands (n_rows, n_commands) lie in extrapolation, (n_rows,)."""
@@ -58,7 +54,8 @@ class PlainRobot:
     def norms(self, commands: Values) -> Values:
         """Command norms (n_rows,)."""
         places = self.surroundings
-        parts = (commands[:, places["varies"]] - places["centre"]) / places["norm_scale"]
+        varying = commands if len(places["varies"]) == commands.shape[1] else commands[:, places["varies"]]
+        parts = (varying - places["centre"]) / places["norm_scale"]
         return np.asarray(np.sqrt((parts * parts).sum(axis=1)))
 
     def in_domain(self, inputs: Values, predicted: Values, spread: Values | None, table: Node) -> Values:
@@ -69,7 +66,7 @@ class PlainRobot:
         if difficulty is not None:
             sides = sides * difficulty[..., None]
         if table["zero"] is not None:
-            unseen = np.isin(self._sessions(inputs), self.memory["sessions"], invert=True)
+            unseen = (self._sessions(inputs)[:, None] != self.memory["sessions"]).all(axis=1)
             zero = table["zero"][:, None] * unseen[:, None]
             sides = np.sign(sides) * np.hypot(sides, zero[..., None])
         return np.asarray(predicted[..., None] + sides)
@@ -100,19 +97,9 @@ class PlainRobot:
         halves = self.memory["halves"]
         return np.asarray(np.minimum(np.maximum(plays, command - halves), command + halves))
 
-    def _features(self, inputs: Values, member: Node) -> Values:
+    def _whole(self, inputs: Values) -> Values:
         if self.memory is None:
             return inputs
-        n, inputs = self.numbers["n_commands"], self._whole(inputs)
-        commands, parts = inputs[:, :n], [inputs[:, :n]]
-        if member["has_step"]:
-            parts.append(commands - inputs[:, n : 2 * n])
-        if len(member["widths"]):
-            plays = inputs[:, 2 * n : -1].reshape(len(inputs), -1, n)[:, member["widths"]]
-            parts.append((commands[:, None] - plays).reshape(len(inputs), -1))
-        return np.hstack(parts)
-
-    def _whole(self, inputs: Values) -> Values:
         return self.from_rest(inputs) if inputs.shape[1] == self.numbers["n_commands"] else inputs
 
     def _sessions(self, inputs: Values) -> Values:
@@ -120,9 +107,8 @@ class PlainRobot:
 
     def _zeros(self, inputs: Values) -> Values:
         """Zeros (n_rows, n_coordinates) in mm of the sessions; 0 of one never seen."""
-        sessions, zeros, asked = self.memory["sessions"], self.memory["zeros"], self._sessions(inputs)
-        places = np.searchsorted(sessions, asked).clip(max=len(sessions) - 1)
-        return np.where((sessions[places] == asked)[:, None], zeros[places], 0.0)
+        is_known = self._sessions(inputs)[:, None] == self.memory["sessions"]
+        return np.asarray(is_known.astype(np.float64) @ self.memory["zeros"])
 
     def _difficulties(self, inputs: Values, spread: Values | None) -> Values | None:
         """What the sides of each row are multiplied by, (n_rows, n_coordinates) or (n_rows, 1); None: by 1."""
@@ -132,7 +118,9 @@ class PlainRobot:
         if node["kind"] == "distance":
             return self._distances(inputs[:, : self.numbers["n_commands"]])
         if node["kind"] == "held_out":
-            return np.asarray(np.maximum(near_errors(node, inputs[:, : self.numbers["n_commands"]]), node["floor"]))
+            commands = inputs[:, : self.numbers["n_commands"]]
+            found = self.near_errors(commands) if len(commands) == 1 else near_errors(node, commands)
+            return np.asarray(np.maximum(found, node["floor"]))
         return None
 
     def _distances(self, commands: Values) -> Values:

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from softkin.core.geometry.constant_curvature import MAX_BENDING, from_arcs, has_arc, spread_of_points, to_arcs
+from softkin.core.geometry.constant_curvature import MAX_BENDING, _sinc, from_arcs, has_arc, spread_of_points, to_arcs
 
 lengths = st.floats(1e-3, 1e4)
 directions = st.floats(-np.pi, np.pi)
@@ -69,3 +69,8 @@ def test_spreads_follow_the_slopes_of_finite_differences(bending: float) -> None
         step[..., axis], spread[..., axis] = 1e-5, 0.1
         slope = (from_arcs(arc + step) - from_arcs(arc - step)) / 2e-5
         np.testing.assert_allclose(spread_of_points(arc, spread, np.eye(3)), np.abs(slope) * 0.1, atol=1e-8)
+
+
+def test_the_sine_by_its_angle_is_that_of_numpy_to_the_bit() -> None:
+    angles = np.concatenate([[0.0, 1e-300, 1e-9], np.random.default_rng(0).uniform(-7, 7, 500)])
+    np.testing.assert_array_equal(_sinc(angles), np.sinc(angles / np.pi))

@@ -36,3 +36,36 @@ def test_many_rows_are_answered_in_parts(monkeypatch: pytest.MonkeyPatch) -> Non
     whole = regressor(node)(rows)[0]
     monkeypatch.setattr(evaluate, "NUMBERS_AT_ONCE", 12)
     np.testing.assert_array_equal(regressor(node)(rows)[0], whole)
+
+
+def network(rng: np.random.Generator, activation: str = "tanh") -> Node:
+    sizes = [(2, 5), (5, 4), (4, 3)]
+    node: Node = {"kind": "network", "activation": activation}
+    return node | {
+        "weights": [rng.normal(size=size) for size in sizes],
+        "biases": [rng.normal(size=n) for _, n in sizes],
+    }
+
+
+def test_networks_that_are_alike_are_averaged_as_one_by_one() -> None:
+    rng = np.random.default_rng(0)
+    members, shares, rows = [network(rng) for _ in range(3)], np.array([0.5, 0.3, 0.2]), rng.normal(size=(6, 2))
+    one_by_one = sum(share * regressor(member)(rows)[0] for share, member in zip(shares, members, strict=True))
+    for others in ([], [network(rng, "relu")]):
+        node = {"kind": "mean", "members": members + others, "shares": np.append(shares, np.zeros(len(others)))}
+        for some in (rows, rows[:1]):
+            targets, spread = regressor(node)(some)
+            np.testing.assert_allclose(targets, one_by_one[: len(some)], rtol=1e-13)
+            assert spread is None
+
+
+def test_one_row_has_the_terms_that_many_have() -> None:
+    rng = np.random.default_rng(0)
+    node = line(1.0) | {
+        "factors": np.array([[0, 0, 1], [0, 2, 2], [1, 1, 2]]),
+        "mean": np.zeros(3),
+        "scale": np.ones(3),
+    }
+    node["weights"], rows = rng.normal(size=(3, 1)), rng.normal(size=(5, 2))
+    each = [regressor(node)(row[None])[0][0] for row in rows]
+    np.testing.assert_allclose(each, regressor(node)(rows)[0], rtol=1e-14)

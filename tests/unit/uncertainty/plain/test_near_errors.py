@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from softkin.uncertainty.plain import near_errors as module
-from softkin.uncertainty.plain.near_errors import mean_of_nearest, near_errors, squared_distances
+from softkin.uncertainty.plain.near_errors import mean_of_nearest, near_errors, of_one_command, squared_distances
 from tests.exported_robots import NEW, hard_somewhere
 
 NUMBERS = hard_somewhere().known.difficulty.numbers  # type: ignore[attr-defined]
@@ -33,3 +33,19 @@ def test_many_commands_are_answered_part_by_part(monkeypatch: pytest.MonkeyPatch
     monkeypatch.setattr(module, "HELD_AT_ONCE", 1000)
     np.testing.assert_allclose(near_errors(NUMBERS, NEW), whole, rtol=1e-14)
     assert near_errors(NUMBERS, NEW[:0]).shape == (0, 6)
+
+
+def test_one_command_is_answered_as_among_many_by_distance_and_by_norm() -> None:
+    n_columns = len(NUMBERS["shares"])
+    mixed = NUMBERS | {
+        "by_norm": np.arange(n_columns) % 2 == 0,
+        "neighbours": 5 + np.arange(n_columns),
+        "shares": np.where(np.arange(n_columns) == 2, 0.0, 0.75),
+    }
+    mixed["column"] = np.append(np.arange(n_columns), -1)
+    on_grid = mixed["points"][:20].round(1) * mixed["scale"] + mixed["mean"]
+    for node in (NUMBERS, mixed):
+        one = of_one_command(node)
+        for rows in (NEW[:40], on_grid):
+            each = np.vstack([one(row[None]) for row in rows])
+            np.testing.assert_allclose(each, near_errors(node, rows), rtol=1e-13)
