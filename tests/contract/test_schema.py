@@ -13,6 +13,7 @@ import yaml
 from softkin.cli.configuration import REGISTRIES
 from softkin.core.configuration import check_configuration
 from softkin.core.errors import ConfigError
+from softkin.core.rotations import KINDS
 from softkin.core.runs import PRESETS
 from softkin.data.readers import READERS
 from softkin.data.readers.complete_rows import MISSING
@@ -39,6 +40,7 @@ LISTED = {
     "missing": MISSING,
     "by": JOINS,
     "resample": RESAMPLING,
+    "kind": KINDS,
     "method": ("column", *GROUPS, *IN_TIME),
 }
 #: What is given with `--configfile`, on top of the default configuration.

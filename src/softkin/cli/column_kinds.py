@@ -1,4 +1,4 @@
-"""What columns of a robot's own table are by their numbers: orientations, differences, running numbers, positions."""
+"""What columns of a robot's own table are, by their names and numbers: orientations, differences, running numbers."""
 
 from __future__ import annotations
 
@@ -10,7 +10,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from softkin.core.samples import Array
+from softkin.data.readers.columns import ORIENTATION_WORDS
 
+#: Words of a column's name, by the kind of column that they say; the first kind that has one of the words counts.
+WORDS = {
+    "subset": "subset split",
+    "group": "group trial run episode sequence session trajectory experiment repetition",
+    "time": "t time timestamp stamp datetime date",
+    "no position": f"{ORIENTATION_WORDS} gyro omega angular angle vel velocity acc",
+    "ignored": "index idx id row frame sample n no qx qy qz qw",
+    "command": "u p q cmd command act actuation actuator input pressure chamber tendon cable force tension motor torque"
+    " voltage current servo valve spool setpoint control",
+}
 #: Words of a column's name that say that it is computed from others: a model's output, or a difference to it.
 COMPUTED = frozenset(
     [
@@ -37,6 +48,14 @@ UNIT_NORM = 0.02
 ALIKE = 0.2
 #: Positions that commands give by an affine map to this share of their range are no measurement.
 AFFINE = 1e-4
+
+
+def kind_of(name: str) -> str | None:
+    """What a column is by the words of its name, ignored without any; None where no word is known."""
+    plain = re.sub(r"[^a-z]+", " ", re.split(r"[\[(]", name.lower())[0]).split()
+    if not plain:
+        return "ignored"
+    return next((kind for kind, known in WORDS.items() if {*plain, "".join(plain)}.intersection(known.split())), None)
 
 
 def computed(names: Sequence[str]) -> list[str]:

@@ -11,26 +11,19 @@ from typing import Any
 import numpy as np
 
 from softkin.cli import column_kinds
+from softkin.cli.column_kinds import kind_of
+from softkin.cli.guess_orientation import orientation_key, question_of_orientation, rotations
 from softkin.cli.guess_questions import PIXELS, Question, question_of, reasons_left_out, words_of
 from softkin.core.errors import DataError
 from softkin.core.samples import Array
 from softkin.core.units import MM_PER_UNIT
 from softkin.data import split
-from softkin.data.readers.columns import ORIENTATION_WORDS, axis_of, marker_by_marker, unit_of
+from softkin.data.orientation import KEY
+from softkin.data.readers.columns import axis_of, marker_by_marker, unit_of
 from softkin.data.readers.memory_table import Table
 from softkin.data.readers.table_formats import open_table
 from softkin.data.recordings import check_placed, recording_of
 
-#: Words of a column's name, by the kind of column that they say; the first kind that has one of the words counts.
-WORDS = {
-    "subset": "subset split",
-    "group": "group trial run episode sequence session trajectory experiment repetition",
-    "time": "t time timestamp stamp datetime date",
-    "no position": f"{ORIENTATION_WORDS} gyro omega angular angle vel velocity acc",
-    "ignored": "index idx id row frame sample n no qx qy qz qw",
-    "command": "u p q cmd command act actuation actuator input pressure chamber tendon cable force tension motor torque"
-    " voltage current servo valve spool setpoint control",
-}
 #: Parts of a column's name that say one power-on of the robot.
 SESSION = re.compile(r"session|trial|run")
 #: A workspace wider than this is taken to be in mm: no robot is so many metres wide.
@@ -52,10 +45,10 @@ def guess_entry(
     """
     try:
         table, looked = _looked(path, options)
-        question = question_of(table.names, looked)
+        question, of_turn = _questions(table.names, looked)
         asked_out = () if question is None else question.left_out[answer]
         told = question.as_commands if question is not None and answer else ()
-        left = [*column_kinds.computed(table.names), *column_kinds.quaternions(table.names, looked), *asked_out, *told]
+        left = [*column_kinds.computed(table.names), *rotations(table.names, looked), *asked_out, *told]
         usable = [name for name in table.names if name not in left]
         positions, dimensions, reasons = _positions(usable, path)
         kinds = {name: kind_of(name) for name in usable if name not in positions}
@@ -81,21 +74,22 @@ def guess_entry(
         "split": split_options,
     }
     when, why_when = _when(table, kinds)
+    turned, why_turned = orientation_key(table.names, looked, answer if of_turn else None)
     if not when and split_options["method"] == "random" and column_kinds.are_alike(inputs):
         if running := column_kinds.running_number(kinds, looked):
             when, split_options = {"order": running}, {"method": "later"}
             why_split = f"order, split: '{running}' is a running number and rows in turn are alike; please check"
         else:
             reasons.append("order: rows in turn are alike, as of a recording: add a column of its time to the file")
-    entry |= when | missing
+    entry |= when | missing | turned
     entry["split"] = split_options
     if column_kinds.affine_copies(inputs, values):
         reasons.append(f"suspicious_affine: an affine map of {', '.join(commands)} gives the positions; please check")
-    reasons += [why_unit, why_split, *why_when, *why_missing]
+    reasons += [*why_turned, why_unit, why_split, *why_when, *why_missing]
     if dimensions == 2:
         entry["dimensions"] = 2
         reasons.append("dimensions: positions of two axes only, so a planar robot")
-    used = (*commands, *positions, split_options.get("column"), *when.values())
+    used = (*commands, *positions, split_options.get("column"), *when.values(), *turned.get(KEY, {}).get("columns", ()))
     if left_out := [name for name in table.names if name not in used]:
         reasons.append(f"left out: {reasons_left_out(left_out, looked, {name: kind_of(name) for name in left_out})}")
     return entry, reasons
@@ -111,21 +105,19 @@ def asked(path: Path, options: Mapping[str, Any] | None = None) -> Question | No
         table, looked = _looked(path, options)
     except DataError as error:
         raise error if error.where == str(path) else error.within(str(path)) from error
-    return question_of(table.names, looked)
+    return _questions(table.names, looked)[0]
+
+
+def _questions(names: Sequence[str], looked: Mapping[str, Any]) -> tuple[Question | None, bool]:
+    """What is asked, one question at a time, and whether it is of the orientation."""
+    question = question_of(names, looked)
+    return (question, False) if question is not None else (question_of_orientation(names, looked), True)
 
 
 def _looked(path: Path, options: Mapping[str, Any] | None) -> tuple[Table, dict[str, Any]]:
     """The table, and its columns (n_rows,) as far as they can be read."""
     table = open_table(path, options or {})
     return table, dict(zip(table.names, table.look(), strict=True))
-
-
-def kind_of(name: str) -> str | None:
-    """What a column is by the words of its name, ignored without any; None where no word is known."""
-    plain = re.sub(r"[^a-z]+", " ", re.split(r"[\[(]", name.lower())[0]).split()
-    if not plain:
-        return "ignored"
-    return next((kind for kind, known in WORDS.items() if {*plain, "".join(plain)}.intersection(known.split())), None)
 
 
 def _positions(names: Sequence[str], path: Path) -> tuple[list[str], int, list[str]]:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from softkin.cli.guess_entry import kind_of
+from softkin.cli.column_kinds import kind_of
 from softkin.core.errors import DataError
 from softkin.data.readers.memory_table import Table
 

@@ -37,12 +37,15 @@ class Samples:
 
     `recording` says when they were measured, where the dataset knows it. `block` (n_rows,) numbers what was split as a
     whole, a stretch of time or a group, where that was not each row for itself: rows of one block are alike.
+    `orientation` (n_rows, 3) holds rotation vectors of the tip in rad, where the dataset's entry names them: about the
+    mean of `train`, and as a reader gives them about none.
     """
 
     commands: Array
     positions: Array
     recording: Recording | None = None
     block: NDArray[np.int64] | None = None
+    orientation: Array | None = None
 
     def __len__(self) -> int:
         return len(self.commands)
@@ -58,8 +61,14 @@ class Samples:
         """Some of the rows."""
         recording = None if self.recording is None else self.recording.take(rows)
         block = None if self.block is None else self.block[rows]
+        orientation = None if self.orientation is None else self.orientation[rows]
         return replace(
-            self, commands=self.commands[rows], positions=self.positions[rows], recording=recording, block=block
+            self,
+            commands=self.commands[rows],
+            positions=self.positions[rows],
+            recording=recording,
+            block=block,
+            orientation=orientation,
         )
 
 
@@ -71,6 +80,10 @@ def command_columns(n_commands: int) -> list[str]:
 def coordinate_columns(n_markers: int) -> list[str]:
     """Names m1_x, m1_y, m1_z, m2_x, ... of the coordinate columns."""
     return [f"m{i + 1}_{axis}" for i in range(n_markers) for axis in "xyz"]
+
+
+#: Names of the columns of an orientation.
+ROTATION_COLUMNS = [f"rotation_{axis}" for axis in "xyz"]
 
 
 def measured_coordinates(positions: Array) -> NDArray[np.bool_]:

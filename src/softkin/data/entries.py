@@ -100,6 +100,12 @@ def _problems_of_columns(key: str, entry: Mapping[str, Any]) -> Iterator[str]:
             yield f"{key}.{field}: {count} columns, but {per} per marker; name all, or write dimensions: {5 - per}"
         elif entry.get(number, count // per) != count // per:
             yield f"{key}.{number}: {entry[number]}, but `{field}` names {count // per}"
+    for field, named in (("commands", commands), ("positions", positions)):
+        twice = (
+            [] if isinstance(named, str) else sorted(set(named) & set(entry.get("orientation", {}).get("columns", ())))
+        )
+        if twice:
+            yield f"{key}: '{twice[0]}' stands in `{field}` and in `orientation`; name each column once"
     if isinstance(commands, Sequence) and not isinstance(commands, str) and not isinstance(positions, str):
         twice = sorted(set(commands) & set(positions))
         if twice:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from softkin.core.errors import DataError, ResultError
 from softkin.core.files import file_sha256, write_json
@@ -16,6 +17,7 @@ from softkin.core.job_records import recorded_sha256
 from softkin.core.samples import CONSTANT_RANGE_MM, TRAIN, Samples, coordinate_columns, informative_coordinates
 from softkin.core.units import MM, own_unit, per_unit, unit_in_tables
 from softkin.data.marker_order import RELABELLED, relabelled
+from softkin.data.orientation import about_mean
 from softkin.data.own_files import in_words
 from softkin.data.readers import READERS, WITH_NAMES
 from softkin.data.readers.columns import ORIENTATION, UNUSED, orientations
@@ -83,19 +85,27 @@ def prepare(
     _check_left(samples, where)
     _check_movement(samples[TRAIN], unit_in_tables(source["position_unit"]), f"{where}, `train`")
     _warn_of_implausible_range(samples[TRAIN], source, where)
-    frame = to_table(samples)
-    n_commands, n_markers = samples[TRAIN].commands.shape[1], samples[TRAIN].positions.shape[1] // 3
-    schema(n_commands, n_markers, recorded is not None, samples[TRAIN].block is not None).validate(frame)
-    write_table(frame, table)
+    samples, oriented = about_mean(samples, source)
+    write_table(_checked_table(samples), table)
     about: dict[str, Any] = {
         "dataset": dataset,
         "sha256": sha256,
         "removed_from_train": removed,
         "is_cut": max_rows is not None and any(size > max_rows for size in sizes.values()),
     }
-    about |= counts | _description(samples, source) | ({"recording": recorded} if recorded else {})
+    about |= counts | oriented | _description(samples, source) | ({"recording": recorded} if recorded else {})
     write_json(description, about | _columns(columns, source, counts))
-    logger.info("%d rows, %d commands, %d coordinates", len(frame), n_commands, 3 * n_markers)
+    n_rows, train = sum(map(len, samples.values())), samples[TRAIN]
+    logger.info("%d rows, %d commands, %d coordinates", n_rows, train.commands.shape[1], train.positions.shape[1])
+
+
+def _checked_table(samples: Mapping[str, Samples]) -> pd.DataFrame:
+    """The tidy table of the samples, as its schema says."""
+    frame, train = to_table(samples), samples[TRAIN]
+    kept = (train.recording, train.block, train.orientation)
+    shape = train.commands.shape[1], train.positions.shape[1] // 3
+    schema(*shape, *(part is not None for part in kept)).validate(frame)
+    return frame
 
 
 def _columns(columns: Mapping[str, Any], source: Mapping[str, Any], counts: Mapping[str, Any]) -> dict[str, Any]:

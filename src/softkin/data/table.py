@@ -1,7 +1,8 @@
 """The tidy table of a dataset: one Parquet file with columns subset, u1, ..., m1_x, ... (mm).
 
 A table that says when its rows were recorded has more columns before the positions: order, session, and what the robot
-may remember of the commands before (`softkin.core.recording`); one that was split by blocks, the number of each.
+may remember of the commands before (`softkin.core.recording`); one that was split by blocks, the number of each; one
+that knows the tip's orientation, after the positions, its rotation vector about the mean of `train` (rad).
 
 A stage names the one subset that it may see; no other row is read from the disk.
 """
@@ -19,14 +20,18 @@ import pandas as pd
 from softkin.core.errors import DataError
 from softkin.core.files import replacing
 from softkin.core.recording import CommandMemory, Recording, memory_columns
-from softkin.core.samples import SUBSETS, Samples, command_columns, coordinate_columns
+from softkin.core.samples import ROTATION_COLUMNS, SUBSETS, Samples, command_columns, coordinate_columns
 
 if TYPE_CHECKING:
     import pandera.pandas as pandera
 
 
 def schema(
-    n_commands: int, n_markers: int, is_recorded: bool = False, has_blocks: bool = False
+    n_commands: int,
+    n_markers: int,
+    is_recorded: bool = False,
+    has_blocks: bool = False,
+    has_orientation: bool = False,
 ) -> pandera.DataFrameSchema:
     """The schema of a tidy table: these columns in this order, finite 64-bit floats, the names of the four subsets;
     where it is recorded an order without repetition, and sessions from 1; where it has blocks their numbers from 0.
@@ -42,6 +47,8 @@ def schema(
     if has_blocks:
         columns |= {"block": pa.Column(int, pa.Check.ge(0))}
     columns |= dict.fromkeys(coordinate_columns(n_markers), number)
+    if has_orientation:
+        columns |= dict.fromkeys(ROTATION_COLUMNS, number)
     return pa.DataFrameSchema(columns, strict=True, ordered=True)
 
 
@@ -57,6 +64,8 @@ def to_table(samples: Mapping[str, Samples]) -> pd.DataFrame:
         if rows.block is not None:
             parts.append(pd.DataFrame({"block": rows.block}))
         parts.append(pd.DataFrame(rows.positions, columns=coordinate_columns(rows.positions.shape[1] // 3)))
+        if rows.orientation is not None:
+            parts.append(pd.DataFrame(rows.orientation, columns=ROTATION_COLUMNS))
         frame = pd.concat(parts, axis=1)
         frame.insert(0, "subset", subset)
         frames.append(frame)
@@ -94,16 +103,22 @@ def read_subset(path: str | Path, subset: str) -> Samples:
         recording = Recording(order, session, memory, robot)
     positions = np.ascontiguousarray(frame.loc[:, is_coordinate].to_numpy(np.float64))
     block = frame["block"].to_numpy(np.int64) if "block" in frame else None
-    return Samples(commands, positions, recording, block)
+    turned = (
+        np.ascontiguousarray(frame[ROTATION_COLUMNS].to_numpy(np.float64)) if ROTATION_COLUMNS[0] in frame else None
+    )
+    return Samples(commands, positions, recording, block, turned)
 
 
 def content_hash(samples: Samples) -> str:
-    """SHA-256 (hex) over the numbers of one subset and their shapes; of its recording, too, where it has one."""
+    """SHA-256 (hex) over the numbers of one subset and their shapes; of its recording, too, where it has one, and of
+    its orientation.
+    """
     digest = hashlib.sha256()
     recording = samples.recording
     when = () if recording is None else (recording.order, recording.session, recording.memory)
     block = () if samples.block is None else (samples.block,)
-    for array in (samples.commands, samples.positions, *when, *block):
+    turned = () if samples.orientation is None else (samples.orientation,)
+    for array in (samples.commands, samples.positions, *when, *block, *turned):
         digest.update(f"{array.shape}".encode())
         digest.update(np.ascontiguousarray(array, dtype="<f8").tobytes())
     return digest.hexdigest()

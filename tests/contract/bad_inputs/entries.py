@@ -102,6 +102,21 @@ CASES = [
     BadInput("257 commands", own({"commands": [f"u{i}" for i in range(257)]}), ("257 columns, of at most 256",)),
     BadInput("another number of commands", own({"n_commands": 3}), ("sources.arm.n_commands: 3", "names 2")),
     BadInput("another number of markers", own({"n_markers": 2}), ("sources.arm.n_markers: 2", "names 1")),
+    BadInput(
+        "an orientation of an unknown kind",
+        own({"orientation": {"kind": "quaternion", "columns": ["a", "b", "c", "d"]}}),
+        ("sources.arm.orientation.kind", "quaternion_xyzw"),
+    ),
+    BadInput(
+        "a quaternion of three columns",
+        own({"orientation": {"kind": "quaternion_xyzw", "columns": ["a", "b", "c"]}}),
+        ("sources.arm.orientation.columns",),
+    ),
+    BadInput(
+        "a coordinate as an angle",
+        own({"orientation": {"kind": "roll_pitch_yaw_radians", "columns": ["x", "b", "c"]}}),
+        ("'x' stands in `positions` and in `orientation`",),
+    ),
     BadInput("four dimensions", own({"dimensions": 4}), ("sources.arm.dimensions: 4 is none of 2, 3",)),
     BadInput("a letter as delimiter", own({"delimiter": "a"}), ("sources.arm.delimiter",)),
     BadInput("an unknown split", own({"split": {"method": "groups"}}), ("did you mean 'group'?",)),

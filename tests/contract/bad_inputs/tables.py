@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from softkin.core.rotations import KINDS
 from softkin.core.samples import command_columns, coordinate_columns
 from tests.conftest import bending_arm
 from tests.contract.bad_inputs.case import BadInput, prepared
@@ -39,6 +40,18 @@ def text(content: str | bytes, **entry: Any) -> Callable[[], None]:
 def workbook(**sheets: Any) -> Callable[[], None]:
     """A workbook of these sheets."""
     return lambda: text(write_workbook(Path("arm.xlsx"), sheets).read_bytes())()
+
+
+ORIENTED = {"orientation": {"kind": "quaternion_xyzw", "columns": ["o0", "o1", "o2", "o3"]}}
+
+
+def turned(kind: str, first: float) -> Callable[[], None]:
+    """A good table with an orientation whose first column is `first` throughout, and 0 in all others."""
+    names = [f"o{place}" for place in range(KINDS[kind])]
+    added = dict.fromkeys(names, 0.0) | {"o0": first}
+    return of(
+        lambda t: [put(name, value)(t) for name, value in added.items()], orientation={"kind": kind, "columns": names}
+    )
 
 
 def cell(value: str) -> Callable[[], None]:
@@ -153,4 +166,10 @@ CASES = [
     BadInput("Parquet with whole numbers beyond floats", parquet(put("u1", 2**60 + 1)), ("column 'u1'", "cannot hold")),
     BadInput("Parquet with lists", parquet(put("u1", [[1.0]] * ROWS)), ("column 'u1'", "not numbers")),
     BadInput("Parquet without the column", parquet(lambda t: t.pop("u2")), ("no column 'u2'",)),
+    BadInput(
+        "a quaternion that is not of unit norm", turned("quaternion_wxyz", 0.5), ("columns o0, o1, o2, o3", "norm is")
+    ),
+    BadInput("a matrix that is no rotation", turned("rotation_matrix", 0.5), ("line 2, columns o0", "not orthonormal")),
+    BadInput("an orientation with a gap", turned("roll_pitch_yaw_degrees", np.nan), ("column 'o0'", "no value")),
+    BadInput("no such column of an orientation", text(GOOD, **ORIENTED), ("no column 'o0'", "`orientation.columns`")),
 ]

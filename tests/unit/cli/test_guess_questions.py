@@ -52,7 +52,6 @@ def test_desired_positions_are_commands_or_nothing(tmp_path: Path) -> None:
     ("file", "left", "reason"),
     [
         ("01_residual_columns.csv", "dx", "a model's output or a difference"),
-        ("02_quaternion_q0_q3.csv", "q0", "an orientation: four columns of unit norm"),
         ("05_rpy_and_quaternion_xyz.csv", "rpy_x", "an orientation or a rate"),
         ("14_text_columns.csv", "action_name", "text"),
     ],

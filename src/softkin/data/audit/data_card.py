@@ -28,14 +28,15 @@ from softkin.data.audit import CHECKS
 from softkin.data.audit.findings import LEAK, Finding, worst_severity
 from softkin.data.audit.page import page
 from softkin.data.marker_order import RELABELLED
+from softkin.data.orientation import KEY
 from softkin.data.readers.columns import ORIENTATION, UNUSED
 from softkin.data.readers.complete_rows import COUNTED
 from softkin.data.table import read_subset
 
 logger = logging.getLogger("softkin")
 
-#: Keys of a dataset's description, and of its card, for what was left out or mended.
-LEFT_OUT = ("removed_from_train", *COUNTED, RELABELLED, UNUSED, ORIENTATION)
+#: Keys of a dataset's description, and of its card, for what was left out or mended, and for the orientation.
+LEFT_OUT = ("removed_from_train", *COUNTED, RELABELLED, UNUSED, ORIENTATION, KEY)
 #: Names of columns in softkin's tables, in a sentence.
 COLUMN = re.compile(r"\b(?:u\d+|m\d+_[xyz])\b")
 
@@ -97,7 +98,7 @@ def audit(
 def left_out(description: Mapping[str, Any]) -> dict[str, Any]:
     """The keys of a card for what a dataset's description says was left out: rows that cleaning dropped from `train`,
     by kind (None where it was not asked for), what of the file was not read, columns that are not used, and rows whose
-    markers were put in order, where the entry asked for that.
+    markers were put in order, where the entry asked for that; and which columns are the orientation.
     """
     return {key: description[key] for key in LEFT_OUT if key in description}
 

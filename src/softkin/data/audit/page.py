@@ -8,6 +8,7 @@ from typing import Any
 from softkin.core.escaping import markdown_text
 from softkin.core.samples import SUBSETS, TRAIN
 from softkin.data.audit.findings import counted
+from softkin.data.orientation import KEY
 from softkin.data.readers.columns import ORIENTATION, UNUSED
 from softkin.data.readers.complete_rows import GAPS, LOST_MARKERS, UNJOINED
 
@@ -110,15 +111,16 @@ def _relabelled(counts: Mapping[str, int] | None) -> list[str]:
 
 
 def _unused(card: Mapping[str, Any]) -> list[str]:
-    """Columns of the file that the entry names nowhere; an orientation among them is not predicted."""
+    """Columns of the file that the entry names nowhere; those of the orientation that it names, which is predicted."""
     said = [
         f"{what}: {_listed(card[key])}."
         for key, what in (
             (UNUSED, "Columns of the file that the entry does not name"),
-            (ORIENTATION, "An orientation by their names, which is measured and not modelled: positions alone are"),
+            (ORIENTATION, "An orientation by their names, which is modelled where the entry names it (`orientation`)"),
         )
         if key in card
     ]
+    said += [f"Orientation of the tip, {card[KEY]['kind']}: {_listed(card[KEY]['columns'])}."] if KEY in card else []
     return [" ".join(said)] if said else []
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -17,11 +18,12 @@ from numpy.typing import NDArray
 from softkin.core.errors import DataError
 from softkin.core.recording import Recording
 from softkin.core.samples import EXTRAPOLATION, MAX_MAGNITUDE, ROWS_FOR_95_PERCENT, SUBSETS, VALIDATION, Array, Samples
-from softkin.data import split
+from softkin.data import orientation, split
 from softkin.data.blocks import blocks
 from softkin.data.own_files import in_words
 from softkin.data.readers import columns
 from softkin.data.readers.complete_rows import REFUSE, whole
+from softkin.data.readers.memory_table import Table
 from softkin.data.readers.table_formats import open_table
 from softkin.data.recordings import check_placed, recording_of
 
@@ -55,18 +57,20 @@ def read(
         table = open_table(path, source)
         commands, coordinates, named = _chosen(table.names, source)
         chosen = [*commands, *coordinates]
+        turned = orientation.places(table.names, source, [*chosen, *named.values()])
         names = [table.names[place] for place in chosen]
         n_commands, dimensions = len(commands), source.get("dimensions", 3)
-        _tell(own_columns, dimensions=dimensions, **_named(table.names, chosen, n_commands, named.values()))
+        _tell(own_columns, dimensions=dimensions, **_named(table.names, chosen, n_commands, [*named.values(), *turned]))
         missing = source.get("missing", REFUSE)
         others = [place for place in dict.fromkeys(named.values()) if place not in chosen]
-        values, read_others = table.read(chosen, others, gaps=missing != REFUSE)
+        numbers, read_others = table.read([*chosen, *turned], others, gaps=missing != REFUSE)
+        values, rotations = numbers[:, : len(chosen)], orientation.without_zeros(numbers[:, len(chosen) :], source)
         by_place = dict(zip(others, read_others, strict=True)) | dict(zip(chosen, values.T, strict=True))
         by = {key: by_place[place] for key, place in named.items()}
         if not len(values):
             raise DataError("a header, but no row of numbers", fix="export the file again")
         left = whole(
-            values[:, :n_commands],
+            np.hstack([values[:, :n_commands], rotations]),
             values[:, n_commands:],
             names[n_commands:],
             dimensions=dimensions,
@@ -78,12 +82,10 @@ def read(
         recording = _recording(values[:, :n_commands], by, table.place, left.rows)
         names = [*names[:n_commands], *(names[n_commands + place] for place in left.coordinates)]
         values = values[np.ix_(left.rows, [*range(n_commands), *(n_commands + left.coordinates)])]
-
-        def place(row: int) -> str:
-            return table.place(int(left.rows[row]))
-
+        place = partial(_place, table, left.rows)
         _check_magnitudes(names, values, place)
         samples = Samples(values[:, :n_commands], _spatial(values[:, n_commands:], dimensions), recording)
+        samples = replace(samples, orientation=orientation.vectors_of(rotations[left.rows], source, place))
         column = by["split"][left.rows] if "split" in by else None
         how = (source["split"], samples.commands, column, place)
         subset_of, samples = split.split(*how, recording), replace(samples, block=blocks(*how))
@@ -111,6 +113,11 @@ def _named(names: Sequence[str], chosen: Sequence[int], n_commands: int, others:
 def _tell(somebody: Told, **what: Any) -> None:
     if somebody is not None:
         somebody |= what
+
+
+def _place(table: Table, kept: NDArray[np.intp], row: int) -> str:
+    """Where row `row` of those that are `kept` stands in the file."""
+    return table.place(int(kept[row]))
 
 
 def _by_subset(samples: Samples, subset_of: split.Codes) -> dict[str, Samples]:

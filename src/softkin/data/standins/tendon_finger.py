@@ -16,7 +16,7 @@ import numpy as np
 from softkin.core.samples import Array
 from softkin.data.standins.cosserat_rod import solve
 from softkin.data.standins.robot import StandIn, in_box, in_disc
-from softkin.data.standins.rod import Rod, disc, loads, section
+from softkin.data.standins.rod import Rod, Shape, disc, loads, section
 
 RADIUS, TENDON_OFFSET = 10.0, 8.0
 #: Pulled by a positive first and second command, then by a negative one.
@@ -45,12 +45,12 @@ ROD = _rod()
 BENCH_ROD = replace(ROD, length=127.0, tendons=tuple((-y, x) for x, y in TENDONS), friction=FRICTION)
 
 
-def _tips(rod: Rod, pulls: Array, largest: float, slides: Array | float, label: str) -> Array:
-    """Tips (n_rows, 3) in mm under differences of tension `pulls` (n_rows, 2) in N, at most `largest`; standing up."""
+def _shapes(rod: Rod, pulls: Array, largest: float, slides: Array | float, label: str) -> Shape:
+    """Shapes under differences of tension `pulls` (n_rows, 2) in N, at most `largest`; standing up."""
     tensions = (largest + np.hstack([pulls, -pulls])) / 2
     weight = (0.0, 0.0, -rod.weight_per_length)
     loaded = loads(rod, len(pulls), distributed_force=weight, tensions=tensions, slides=slides)
-    return solve(rod, loaded, n_elements=N_ELEMENTS, label=label).positions[:, -1]
+    return solve(rod, loaded, n_elements=N_ELEMENTS, label=label)
 
 
 def _draw(n_rows: int, rng: np.random.Generator) -> Array:
@@ -58,7 +58,7 @@ def _draw(n_rows: int, rng: np.random.Generator) -> Array:
 
 
 def _poses(commands: Array, _: np.random.Generator) -> Array:
-    return _tips(ROD, commands, LARGEST_TENSION, 0.0, SPEC.name)
+    return _shapes(ROD, commands, LARGEST_TENSION, 0.0, SPEC.name).positions[:, -1]
 
 
 def play(commands: Array, half_width: float) -> tuple[Array, Array]:
@@ -76,11 +76,16 @@ def play(commands: Array, half_width: float) -> tuple[Array, Array]:
     return commands - half_width * stops, stops
 
 
-def bench_tips(commands: Array) -> Array:
-    """Tips (n_rows, 3) in mm of the finger on the bench, before measurement; commands in counts, in their order."""
+def bench_shapes(commands: Array) -> Shape:
+    """Shapes of the finger on the bench, before measurement; commands in counts, in their order."""
     counts, stops = play(commands, BACKLASH)
     pulls, largest = TENSION_PER_COUNT * counts, TENSION_PER_COUNT * LARGEST_COUNT
-    return _tips(BENCH_ROD, pulls, largest, np.hstack([stops, -stops]), FRICTIONAL.name)
+    return _shapes(BENCH_ROD, pulls, largest, np.hstack([stops, -stops]), FRICTIONAL.name)
+
+
+def bench_tips(commands: Array) -> Array:
+    """The tips (n_rows, 3) of these shapes in mm."""
+    return bench_shapes(commands).positions[:, -1]
 
 
 def _bench_poses(commands: Array, rng: np.random.Generator) -> Array:

@@ -110,6 +110,9 @@ def test_columns_that_are_not_used_are_named_and_orientations_are_said_to_be_lef
     assert "does not name" not in page(card)
     card |= {"unused_columns": ["frame", "tip_qw"], "orientation_columns": ["tip_qw"]}
     assert "Columns of the file that the entry does not name: frame, tip" in page(card)
-    assert "which is measured and not modelled: positions alone are: tip" in page(card)
+    assert "which is modelled where the entry names it (`orientation`): tip" in page(card)
+    assert "Orientation of the tip" not in page(card)
+    tip = {"kind": "rotation_matrix", "columns": ["r11", "r12"]}
+    assert "Orientation of the tip, rotation_matrix: r11, r12." in page(card | {"orientation": tip})
     many = page(card | {"unused_columns": [f"c{i}" for i in range(20)]})
     assert "c11 and 8 more." in many
