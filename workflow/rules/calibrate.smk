@@ -1,4 +1,8 @@
-# in:  stored outputs of all models of a dataset, the truth on validation, the fitted models, names of the robot's columns
+include: "orientation.smk"
+
+
+# in:  stored outputs of all models of a dataset, the truth on validation, the fitted models, names of the robot's columns;
+#      the model of the tip's orientation, where there is one
 # out: the intervals of every method around all of them, on test and extrapolation; which method is chosen; and one file
 #      that predicts with the chosen model and method, with intervals, regions and p-values, at any command
 rule calibrate:
@@ -6,6 +10,7 @@ rule calibrate:
         **STORED_OUTPUTS,
         table="results/{dataset}/table.parquet",
         description="results/{dataset}/dataset.json",
+        orientation=orientation_model,
     output:
         intervals=INTERVALS,
         manifest=INTERVAL_MANIFEST,

@@ -77,6 +77,20 @@ def model_manifests(wildcards):
     return manifests_of(wildcards.dataset)
 
 
+def orientation_model(wildcards):
+    """The model of the tip's orientation, where a dataset has one."""
+    return [f"results/{wildcards.dataset}/orientation.joblib"] * (
+        wildcards.dataset in ORIENTED
+    )
+
+
+def orientation_scores(wildcards):
+    """The scores of that model."""
+    return [f"results/{wildcards.dataset}/orientation.csv"] * (
+        wildcards.dataset in ORIENTED
+    )
+
+
 def compared_models(wildcards):
     """Those of them that a dataset has."""
     models = configured("models", wildcards.dataset)

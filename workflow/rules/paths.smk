@@ -5,6 +5,10 @@ from softkin.models.paper_groups import NETWORK, ONE_OF_EACH_KIND
 
 # The datasets that know when their rows were recorded.
 RECORDED = [name for name in config["datasets"] if is_recorded(config["sources"][name])]
+# The datasets whose entry names the orientation of the tip.
+ORIENTED = [
+    name for name in config["datasets"] if "orientation" in config["sources"][name]
+]
 # Published datasets, and the models whose learning curves decide what the paper says of the data that a network needs.
 LEARNING_MODELS = [name for name in ONE_OF_EACH_KIND if name in config["models"]]
 LEARNING = [
@@ -36,6 +40,7 @@ TABLES = [
     "claims.csv",
     *(["recorded.csv"] if RECORDED else []),
     *(["learning_curve.csv"] if LEARNING else []),
+    *(["orientation.csv"] if ORIENTED else []),
     *(
         ["selection.csv", "searched_runs.csv"]
         if set(SEARCHED) & set(config["presets"])

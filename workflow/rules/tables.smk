@@ -16,6 +16,7 @@ rule build_tables:
         models=[file for name in config["datasets"] for file in manifests_of(name)],
         recorded=expand("results/{dataset}/recorded.csv", dataset=RECORDED),
         learning=expand("results/{dataset}/learning_curve.csv", dataset=LEARNING),
+        orientation=expand("results/{dataset}/orientation.csv", dataset=ORIENTED),
     output:
         headline=report(
             HEADLINE,

@@ -34,6 +34,10 @@ def timed_jobs():
             jobs.append(([stage, dataset, ""], f"{stage}/{dataset}", []))
     for dataset in RECORDED:
         jobs.append((["score_recorded", dataset, ""], f"score_recorded/{dataset}", []))
+    for dataset in ORIENTED:
+        jobs.append(
+            (["fit_orientation", dataset, ""], f"fit_orientation/{dataset}", [])
+        )
     for dataset in LEARNING:
         jobs.append((["learning_curve", dataset, ""], f"learning_curve/{dataset}", []))
     return jobs

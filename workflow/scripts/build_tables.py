@@ -31,6 +31,7 @@ with job(snakemake.log[0], "build tables", snakemake.output, snakemake.input, sn
         objective=params.objective,
         recorded=files.recorded,
         learning=files.learning,
+        orientation=files.orientation,
         published=PublishedFiles(
             *(
                 published / f"{name}.csv"

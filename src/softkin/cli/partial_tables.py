@@ -16,7 +16,10 @@ from softkin.core.failed_parts import PARTS
 from softkin.core.files import write_json
 
 #: What is made again of what is there. None of them writes to the store.
-OF_A_DATASET = ("fit_ensemble", "refit", "calibrate", "score", "score_recorded", "learning_curve", "draw_figures")
+OF_A_DATASET = (
+    *("fit_ensemble", "fit_orientation", "refit", "calibrate", "score", "score_recorded", "learning_curve"),
+    "draw_figures",
+)
 RULES = (*OF_A_DATASET, "build_tables", "draw_campaign_figures", "build_report")
 #: A job of these that has not been done leaves the tables of its dataset whole.
 AFTER_THE_TABLES = ("track",)

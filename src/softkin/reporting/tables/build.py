@@ -14,6 +14,7 @@ from softkin.reporting.tables.claims import with_memory
 from softkin.reporting.tables.frames import Tables
 from softkin.reporting.tables.headline import headline
 from softkin.reporting.tables.interval_layout import interval_table
+from softkin.reporting.tables.orientation import orientation_sentences
 from softkin.reporting.tables.paper_layout import (
     SUBSET_TITLES,
     PaperTable,
@@ -49,6 +50,7 @@ def build_tables(tables: Tables, *, titles: Titles, folder: Path, caution: str |
         write_csv(folder / f"{name}.csv", csv_frame(frame))
     robots = {name: entry["title"] for name, entry in tables.sources.items()}
     sentences = summary(frames["published_comparison"], frames.get("published_columns"))
+    turned = orientation_sentences(frames.get("orientation"))
     preface = _preface([*map(markdown_text, _cautions(caution)), *sentences], presets_of(frames["point_metrics"]))
     papers = _papers_tables(tables, titles)
     write_text(folder / "paper_tables.md", "\n".join([preface, *(table.markdown() for table in papers)]))
@@ -64,7 +66,7 @@ def build_tables(tables: Tables, *, titles: Titles, folder: Path, caution: str |
         selected,
         frames["point_metrics"],
         frames["interval_choice"],
-        sentences,
+        [*turned, *sentences],
         found,
         caution,
         frames["interval_metrics"],

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -83,9 +83,10 @@ def read_tables(
     published: PublishedFiles,
     recorded: Sequence[str | Path] = (),
     learning: Sequence[str | Path] = (),
+    orientation: Sequence[str | Path] = (),
 ) -> Tables:
     """The tables of a run. There is no published_columns without tuned models, and no selection and searched_runs where
-    nothing was searched; recorded where a dataset is recorded, learning_curve where there are any. Without a published
+    nothing was searched; recorded, learning_curve and orientation where files of them are given. Without a published
     dataset `claims` has no rows. Where a dataset is not in mm all have a column `unit`.
 
     Parameters:
@@ -96,6 +97,7 @@ def read_tables(
         published: what the paper printed.
         recorded: files of scores in time, of the recorded datasets.
         learning: files of learning curves.
+        orientation: files of scores of orientations.
     """
     files = list(datasets.values())
     descriptions = [read_json(paths.description) for paths in files]
@@ -127,13 +129,15 @@ def read_tables(
     if parameters:
         searched = searched_runs(parameters)
         frames |= {"selection": selection(searched, objective), "searched_runs": runs_with_errors(searched, point)}
-    if recorded:
-        frames["recorded"] = marked(_concatenated(recorded), leaks)
-    if learning:
-        frames["learning_curve"] = marked(_concatenated(learning), leaks)
+    frames |= _of_some(leaks, recorded=recorded, learning_curve=learning, orientation=orientation)
     printed = {name: read_csv(getattr(published, name)) for name in ("subsets", "approaches", "improvements")}
     frames["claims"] = claims(frames, printed, descriptions, cards)
     return Tables(with_units(frames, descriptions), sources, descriptions, cards, notes, printed["subsets"])
+
+
+def _of_some(leaks: Mapping[str, Collection[str]], **files: Sequence[str | Path]) -> dict[str, pd.DataFrame]:
+    """Tables that some datasets have rows of, by name; none of those without files."""
+    return {name: marked(_concatenated(paths), leaks) for name, paths in files.items() if paths}
 
 
 def _left_out(files: Sequence[DatasetFiles]) -> pd.DataFrame:

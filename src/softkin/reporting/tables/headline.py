@@ -45,7 +45,7 @@ def headline(
         selected: the deployed run of each dataset; None where nothing was searched.
         point: as in point_metrics.csv.
         choice: as in interval_choice.csv.
-        sentences: how the paper's cells compare with ours.
+        sentences: what else there is to say: of orientations, and how the paper's cells compare with ours.
         findings: of the audit of each dataset, as data_card.json has them; none by default.
         caution: what the configuration says of its own numbers.
         metrics: as in interval_metrics.csv; None: nothing is said of whole poses.
