@@ -24,6 +24,7 @@ rule track:
         point="results/{dataset}/point_metrics.csv",
         models=model_manifests,
         intervals="results/{dataset}/interval_metrics.csv",
+        orientation=orientation_scores,
         figures="results/{dataset}/figures",
         calibrated_model="results/{dataset}/calibrated_model.joblib",
     output:

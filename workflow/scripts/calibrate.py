@@ -44,6 +44,7 @@ with job(snakemake.log[0], f"calibrate {dataset}", written, snakemake.input, sna
             specs=MODELS | ENSEMBLES,
             methods=INTERVAL_METHODS,
             models=models,
+            orientation=next(iter(files.orientation), None),
             output=calibrated_model,
         )
     write_manifest(output.manifest, intervals.values())

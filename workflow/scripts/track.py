@@ -5,7 +5,7 @@ from softkin.core.files import write_json
 from softkin.core.job import job
 from softkin.core.manifest import files_of_runs
 from softkin.core.runs import Run
-from softkin.tracking import Campaign, locked, log_champion, log_dataset, log_intervals
+from softkin.tracking import Campaign, locked, log_champion, log_dataset, log_intervals, log_orientation
 from softkin.tracking.links import link_to
 from softkin.tracking.store import client_of
 
@@ -31,6 +31,9 @@ with job(snakemake.log[0], f"track {snakemake.wildcards.dataset}", snakemake.out
         logged = log_dataset(campaign, **of_dataset, point=files.point, figures=files.figures, runs=runs)
         n_intervals = log_intervals(
             campaign, **of_dataset, metrics=files.intervals, figures=files.figures, parents=logged
+        )
+        log_orientation(
+            campaign, **of_dataset, scores=next(iter(files.orientation), None), parent=logged["campaign"]
         )
         version = log_champion(
             campaign,

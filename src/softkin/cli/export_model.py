@@ -12,14 +12,19 @@ from softkin.uncertainty.export.c_text import identifier
 from softkin.uncertainty.export.numbers import LEVELS
 from softkin.uncertainty.export.python_file import python_file
 from softkin.uncertainty.export.rounding import known_to
-
-__all__ = ["FORMS", "known_to", "written"]
+from softkin.uncertainty.orientation_model import ORIENTATION
 
 #: Form -> ending of its file, and what writes its text of a model, its levels and the name of what it defines.
 FORMS: dict[str, tuple[str, Callable[[CalibratedModel, Sequence[float], str], str]]] = {
     "python": (".py", lambda robot, levels, name: python_file(robot, levels, name=name)),
     "c": (".h", lambda robot, levels, name: c_header(robot, levels, name=name)),
 }
+
+
+def remarks(robot: CalibratedModel) -> list[str]:
+    """What the model answers and exported files do not, and how exactly its positions are known, in sentences."""
+    not_carried = "exported files give positions: the orientation of the tip stays in the calibrated model"
+    return [sentence for sentence in (not_carried * (ORIENTATION in robot.about), known_to(robot)) if sentence]
 
 
 def written(

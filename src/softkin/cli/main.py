@@ -212,11 +212,11 @@ def export(
     as_json: AsJson = False,
 ) -> None:
     """A numpy-only Python file and a C header: position, interval, `outside` and failures, as the model says."""
-    from softkin.cli.export_model import known_to, written
+    from softkin.cli.export_model import remarks, written
 
     files = written(robot, to, [str(one) for one in form or Export], level, name)
-    if sentence := known_to(robot):
-        print(f"softkin: {sentence}", file=sys.stderr)
+    for remark in remarks(robot):
+        print(f"softkin: {remark}", file=sys.stderr)
     print(json.dumps([str(path) for path in files]) if as_json else "\n".join(map(str, files)))
 
 

@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 
 from softkin.core.errors import DataError
+from softkin.core.rotations import XYZW
 from softkin.core.samples import command_columns, informative_coordinates
 from softkin.core.units import MM, own_unit
 from softkin.data.readers.table_formats import open_table
@@ -18,6 +19,7 @@ from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.calls import Names
 from softkin.uncertainty.control_loop import State
 from softkin.uncertainty.intervals.spec import NO_GUARANTEE
+from softkin.uncertainty.orientations import COLUMNS
 from softkin.uncertainty.promise import worth_of_p_values
 from softkin.uncertainty.targets import TargetNames, marker_of
 
@@ -72,7 +74,8 @@ def predicted_table(
 ) -> pd.DataFrame:
     """Positions, bounds at the level and `outside`, a row for each command; with `joint` the bounds that hold the whole
     pose; of a robot that fails the probability of it, and whether it is so high that bounds hold failed poses, too.
-    Commands of a robot that remembers are taken as sent one after the other from rest. Of a robot that is not in mm the
+    Commands of a robot that remembers are taken as sent one after the other from rest. Where the tip's orientation is
+    modelled, it is a quaternion, `tip_qx` to `tip_qw`, with the bound of its angle. Of a robot that is not in mm the
     last column is its `unit`.
     """
     inputs = State(robot).inputs(commands.to_numpy(dtype=np.float64))
@@ -86,6 +89,10 @@ def predicted_table(
     if robot.failures is not None:
         may_fail = robot.failures.may_fail(commands.to_numpy(dtype=np.float64), [level])[0]
         frame = frame.assign(failure_probability=robot.failure_probability(inputs), may_fail=may_fail)
+    turned = robot.orientation(inputs, level)
+    if turned is not None:
+        columns = dict(zip(COLUMNS[XYZW], np.asarray(turned.rotations).T, strict=True))
+        frame = frame.assign(**{f"tip_{name}": column for name, column in columns.items()}, bound_deg=turned.bound_deg)
     return frame.assign(**own_unit(robot.names.unit))
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from softkin.core.files import replacing
+from softkin.core.csv_tables import write_csv
 from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN
 from softkin.data.table import read_subset
 from softkin.uncertainty.intervals.spec import NO_GUARANTEE
@@ -47,5 +47,4 @@ def score_orientation(
         for subset, angles in missed.items()
         for level in confidence_levels
     ]
-    with replacing(output) as temporary:
-        pd.DataFrame(rows).to_csv(temporary, index=False)
+    write_csv(output, pd.DataFrame(rows))

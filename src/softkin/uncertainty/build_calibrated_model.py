@@ -18,6 +18,7 @@ from softkin.uncertainty.calibrated import FittedModel, calibrated
 from softkin.uncertainty.choose import deployed_choice
 from softkin.uncertainty.failures import failure_class
 from softkin.uncertainty.intervals.spec import AUTO, IntervalMethod
+from softkin.uncertainty.orientation_model import ORIENTATION
 from softkin.uncertainty.promise import promised
 from softkin.uncertainty.stored_outputs import StoredOutputs, norm_of, shells_of
 
@@ -30,6 +31,7 @@ def build_calibrated_model(
     specs: Mapping[str, PointModel],
     methods: Mapping[str, IntervalMethod[Any]],
     models: Mapping[Run, str | Path],
+    orientation: str | Path | None = None,
     output: str | Path,
 ) -> None:
     """Write the calibrated model that a `choice` deploys.
@@ -42,6 +44,7 @@ def build_calibrated_model(
         specs: entries of the registry by model.
         methods: interval methods by name.
         models: run -> file of the fitted estimator (joblib).
+        orientation: the model of the tip's orientation (joblib); None where there is none.
         output: the calibrated model (joblib).
 
     Raises:
@@ -61,6 +64,7 @@ def build_calibrated_model(
     if best["outside"] == AUTO:
         extrapolation = {"shells": shells_of(outputs.shells, train)[run], "norm": norm_of(outputs.shells)}
     about = {"data": content_hash(train)} | {key: written[key] for key in ("columns", "unit") if key in written}
+    about |= {} if orientation is None else {ORIENTATION: load_model(orientation)}
     estimator = load_model(models[run])
     robot = calibrated(
         FittedModel(dataset, specs[run.model], run.preset, estimator, train, outputs.difficulties.get(run)),

@@ -27,6 +27,7 @@ from softkin.uncertainty.inverse import Inverse
 from softkin.uncertainty.joint_intervals import JointAnswers, JointIntervals
 from softkin.uncertainty.joint_region import JointRegion
 from softkin.uncertainty.new_session import labelled_errors, zero_spread
+from softkin.uncertainty.orientations import Orientations
 from softkin.uncertainty.prepared import Prepared
 from softkin.uncertainty.promise import asked_levels, own_rows
 from softkin.uncertainty.recalibration import Recalibration, recalibration
@@ -34,13 +35,13 @@ from softkin.uncertainty.suggestions import Suggestions
 
 
 @dataclass(frozen=True, repr=False)
-class CalibratedModel(Inverse, Suggestions):
+class CalibratedModel(Inverse, Orientations, Suggestions):
     """Positions, intervals, joint regions and p-values at any commands (n_rows, n_commands), in mm or `names.unit`.
 
-    Commands may be an array, lists, one row, or a DataFrame by the robot's own names, which DataFrames answer.
-    A run of the workflow writes one per dataset: `softkin.load("results/finger/calibrated_model.joblib")`. Coverage is
-    guaranteed for commands exchangeable with those of the calibration set. In extrapolation nothing is guaranteed;
-    with `shells`, intervals there are calibrated on the errors of the same model beyond cores of `train`.
+    Commands may be an array, lists, one row, or a DataFrame by the robot's own names, which DataFrames answer. A run
+    writes one per dataset: `softkin.load("results/finger/calibrated_model.joblib")`. Coverage is guaranteed for
+    commands exchangeable with those of the calibration set. In extrapolation nothing is; with `shells`, intervals there
+    are calibrated on the errors of the same model beyond cores of `train`.
 
     Example, on a made-up robot of two commands and one marker:
 
@@ -60,9 +61,8 @@ class CalibratedModel(Inverse, Suggestions):
         (3, 3)
         >>> robot.intervals(commands[:3], [0.8, 0.9]).shape  # nominal levels, rows, coordinates, lower and upper
         (2, 3, 3, 2)
-        >>> lower, upper = robot.intervals([0.5, -0.5], 0.9)[0, 2]
-        >>> print(f"z at this command: {lower:.1f} to {upper:.1f} mm")
-        z at this command: 92.8 to 99.7 mm
+        >>> robot.intervals([0.5, -0.5], 0.9)[0, 2].round(1)  # lower and upper bound of z in mm
+        array([92.8, 99.7])
     """
 
     dataset: str
@@ -85,7 +85,7 @@ class CalibratedModel(Inverse, Suggestions):
     recalibration: Recalibration | None = None
     #: What `train` tells of poses that fail; None: it shows none that commands foretell.
     failures: FailureClass | None = None
-    #: What else is known: `data`, the hash of `train`; `columns`, its own names; `unit`, if not mm; `date`.
+    #: Else known: `data`, the hash of `train`; `columns`, its own names; `unit`, if not mm; `date`; `orientation`.
     about: Mapping[str, Any] = field(default_factory=dict)
 
     def predict(self, commands: calls.Rows) -> Array | pd.DataFrame:

@@ -4,9 +4,10 @@ from pathlib import Path
 
 import pytest
 
-from softkin.cli.export_model import FORMS, written
+from softkin.cli.export_model import FORMS, remarks, written
 from softkin.core.errors import ConfigError
 from tests.exported_robots import small
+from tests.unit.uncertainty.test_orientations import oriented_robot
 
 
 def test_a_file_for_each_form(tmp_path: Path) -> None:
@@ -14,6 +15,11 @@ def test_a_file_for_each_form(tmp_path: Path) -> None:
     assert [path.name for path in files] == ["my_arm.py", "my_arm.h"]
     assert "from my_arm import model" in files[0].read_text()
     assert "static const double my_arm_levels[1] = {0.9};" in files[1].read_text()
+
+
+def test_an_orientation_is_said_to_stay() -> None:
+    assert remarks(small("ridge")) == []
+    assert "orientation of the tip stays" in remarks(oriented_robot())[0]
 
 
 def test_nothing_is_written_where_something_cannot_be(tmp_path: Path) -> None:

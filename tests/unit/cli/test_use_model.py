@@ -13,6 +13,7 @@ from softkin.uncertainty.promise import Promise
 from tests.conftest import bending_arm
 from tests.unit.uncertainty.small_robot import small_robot
 from tests.unit.uncertainty.test_failures import robot as failing_robot
+from tests.unit.uncertainty.test_orientations import oriented_robot
 
 ROBOT = small_robot(shells=True)
 ROWS = bending_arm(80, seed=3)
@@ -33,6 +34,14 @@ def test_joint_bounds_hold_the_whole_pose_and_are_named_so() -> None:
     assert list(table.columns)[:3] == ["m1_x", "joint_lower_m1_x", "joint_upper_m1_x"]
     np.testing.assert_array_equal(table["joint_upper_m1_z"], ROBOT.joint_intervals(ROWS.commands, 0.8).bounds[:, 2, 1])
     assert (table["joint_upper_m1_z"] >= predicted_table(ROBOT, COMMANDS, 0.8)["upper_m1_z"]).all()
+
+
+def test_an_orientation_is_a_quaternion_with_its_bound() -> None:
+    table = predicted_table(oriented_robot(), COMMANDS, 0.9)
+    names = ["tip_qx", "tip_qy", "tip_qz", "tip_qw"]
+    assert list(table.columns)[-5:] == [*names, "bound_deg"]
+    np.testing.assert_allclose(np.linalg.norm(table[names], axis=1), 1.0)
+    assert set(table["bound_deg"]) == {18.0}
 
 
 def test_a_robot_that_fails_has_the_probability_of_it() -> None:

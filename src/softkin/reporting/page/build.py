@@ -25,6 +25,7 @@ from softkin.reporting.page.headline import robot_cards
 from softkin.reporting.page.images import Folder, albums
 from softkin.reporting.page.jobs import Job, duration, measured, slowest_grid
 from softkin.reporting.page.marks import Marks, bounds_of_fits, kinds
+from softkin.reporting.page.orientation import orientation_grid
 from softkin.reporting.page.provenance import data_grid, what_was_run
 from softkin.reporting.page.recorded import recorded_grid
 from softkin.reporting.page.scores import choice_grid, interval_grid, point_grid
@@ -133,6 +134,8 @@ def _scores(frames: Mapping[str, pd.DataFrame], titles: Titles, marks: Marks) ->
         grids.append(spaces_grid(frames["target_spaces"], titles, marks))
     if len(frames.get("recorded", ())):
         grids.append(recorded_grid(frames["recorded"], titles, marks))
+    if "orientation" in frames:
+        grids.append(orientation_grid(frames["orientation"], titles, marks))
     return [*grids, extrapolation_grid(frames["extrapolation_intervals"], titles, level, marks, choices)]
 
 
