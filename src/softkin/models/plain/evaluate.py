@@ -6,7 +6,7 @@ n_features) with targets (n_rows, n_targets) and, where the node has the numbers
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from functools import cache
 
 import numpy as np
@@ -224,15 +224,11 @@ def _in_parts(answer: Regressor, n_rows: int) -> Regressor:
     def answer_all(x: Values) -> Answer:
         if len(x) <= n_rows:
             return answer(x)
-        parts = [answer(part) for part in _parts(x, n_rows)]
+        parts = [answer(x[start : start + n_rows]) for start in range(0, len(x), n_rows)]
         spreads = [spread for _, spread in parts if spread is not None]
         return np.concatenate([targets for targets, _ in parts]), np.concatenate(spreads) if spreads else None
 
     return answer_all
-
-
-def _parts(x: Values, n_rows: int) -> Iterator[Values]:
-    return (x[start : start + n_rows] for start in range(0, len(x), n_rows))
 
 
 ACTIVATIONS: dict[str, Callable[[Values], Values]] = {
