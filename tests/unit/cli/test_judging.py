@@ -14,10 +14,10 @@ from softkin.campaigns.summary import FORMAT
 from softkin.cli.judging import Results, judge_results, log_failure
 from softkin.cli.workflow_process import Ended
 from softkin.core.files import write_json
-from softkin.tracking import create_store
 from softkin.tracking.nights import nights
 from softkin.tracking.promotion import CHAMPION, aliases_of, nominate
 from softkin.tracking.store import client_of
+from tests.unit.stores import new_store
 
 NAME = "softkin-arm"
 #: Nights, one after the other; seconds since the epoch.
@@ -26,9 +26,7 @@ STARTED = count(1000)
 
 @pytest.fixture(scope="module")
 def store(tmp_path_factory: pytest.TempPathFactory) -> str:
-    uri = f"sqlite:///{tmp_path_factory.mktemp('store') / 'mlflow.db'}"
-    create_store(uri)
-    return uri
+    return new_store(tmp_path_factory.mktemp("store") / "mlflow.db")
 
 
 @pytest.fixture

@@ -6,9 +6,9 @@ import pytest
 
 from softkin.cli import prune
 from softkin.core.files import write_json
-from softkin.tracking import create_store
 from softkin.tracking.nights import NightRecord, log_night, nights
 from softkin.tracking.store import client_of
+from tests.unit.stores import new_store
 
 
 @pytest.mark.parametrize(("options", "left", "says"), [([], 3, "would remove: "), (["--yes"], 1, "removed: ")])
@@ -17,8 +17,7 @@ def test_it_says_what_goes_and_removes_it_when_told(
     capsys: pytest.CaptureFixture[str],
 ) -> None:  # fmt: skip
     monkeypatch.chdir(tmp_path)
-    address = f"sqlite:///{tmp_path / 'mlflow.db'}"
-    create_store(address)
+    address = new_store(tmp_path / "mlflow.db")
     write_json(tmp_path / "results" / "mlflow_store.json", {"tracking_uri": address})
     client = client_of(address)
     for started in (1.0, 2.0, 3.0):

@@ -8,14 +8,13 @@ import pytest
 
 from softkin.cli import ui
 from softkin.core.files import write_json
-from softkin.tracking import create_store
+from tests.unit.stores import new_store
 
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
-    address = f"sqlite:///{tmp_path / 'nights.db'}"
-    create_store(address)
+    address = new_store(tmp_path / "nights.db")
     write_json(tmp_path / "results" / "mlflow_store.json", {"tracking_uri": address})
     return tmp_path
 

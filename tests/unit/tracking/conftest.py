@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import sqlite3
-from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -14,8 +12,9 @@ from mlflow import MlflowClient
 from softkin.core.files import write_json
 from softkin.core.runs import Run
 from softkin.core.samples import SUBSETS
-from softkin.tracking import Campaign, create_store
+from softkin.tracking import Campaign
 from softkin.tracking.store import client_of, experiment_of
+from tests.unit.stores import new_store
 
 DESCRIPTION = {
     "dataset": "finger",
@@ -27,21 +26,10 @@ DESCRIPTION = {
 }
 
 
-@pytest.fixture(scope="session")
-def empty_store(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A store without a run: making one takes seconds, copying it none."""
-    path = tmp_path_factory.mktemp("store") / "mlflow.db"
-    create_store(f"sqlite:///{path}")
-    return path
-
-
 @pytest.fixture
-def campaign(tmp_path: Path, empty_store: Path) -> Campaign:
+def campaign(tmp_path: Path) -> Campaign:
     """A campaign on a store of its own."""
-    path = tmp_path / "mlflow.db"
-    with closing(sqlite3.connect(empty_store)) as empty, closing(sqlite3.connect(path)) as copy:
-        empty.backup(copy)
-    return Campaign("nightly", seed=5, tracking_uri=f"sqlite:///{path}")
+    return Campaign("nightly", seed=5, tracking_uri=new_store(tmp_path / "mlflow.db"))
 
 
 @pytest.fixture
