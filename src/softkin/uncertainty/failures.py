@@ -67,8 +67,12 @@ class FailureClass:
         """Bounds (n_levels, n_rows, n_coordinates, 2) in mm that hold the failed poses of `train`, too, where poses may
         fail.
         """
+        probability = self.probability(commands)
+        if probability.max(initial=0.0) <= self.n_failed / self.n_rows:
+            return bounds
         failed = np.stack([np.minimum(bounds[..., 0], self.lower), np.maximum(bounds[..., 1], self.upper)], axis=-1)
-        return np.where(self.may_fail(commands, confidence_levels)[..., None, None], failed, bounds)
+        may_fail = probability > self._least(confidence_levels)[:, None]
+        return np.where(may_fail[..., None, None], failed, bounds)
 
     def numbers(self, confidence_levels: Any) -> Node:
         """All that `MayFail` answers from, in plain numbers, at these levels."""

@@ -211,8 +211,9 @@ def _trees(node: Node, solver: Solver) -> Regressor:
             return found.mean(axis=1) + constant, spread
         if not node["single_sums"]:
             return found[..., 0].sum(axis=2) + constant, None
-        first = np.broadcast_to(constant[:, None], (*found.shape[:2], 1))
-        sums = np.add.accumulate(np.concatenate([first, found[..., 0]], axis=2, dtype=np.float32), axis=2)
+        terms = np.empty((*found.shape[:2], 1 + found.shape[2]), dtype=np.float32)
+        terms[..., 0], terms[..., 1:] = constant, found[..., 0]
+        sums = np.add.accumulate(terms, axis=2)
         return sums[..., -1].astype(np.float64), None
 
     return _in_parts(answer, max(1, NUMBERS_AT_ONCE // (4 * roots.size * values.shape[1])))

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from softkin.models.plain.evaluate import regressor
+from softkin.models.plain.evaluate import Regressor, regressor
 from softkin.models.plain.kernels import Node, Solver, Values
 from softkin.models.plain.spaces import space
 
@@ -19,9 +19,17 @@ class Members:
 
     def __init__(self, numbers: Node, solver: Solver | None = None) -> None:
         self.shares, self.n_commands = numbers["shares"], numbers["n_commands"]
-        self.regressors = [regressor(member["regressor"], solver) for member in numbers["members"]]
-        self.told = [(member["has_step"], tuple(member["widths"])) for member in numbers["members"]]
-        self.moved = {told: _places(*told) for told in self.told}
+        self.regressors: list[Regressor] = []
+        self.given: list[int] = []
+        self.scaled: list[tuple[list[int] | None, Node]] = []
+        for member in numbers["members"]:
+            node, told = member["regressor"], _places(self.n_commands, member["has_step"], member["widths"])
+            scaler = {name: node[name] for name in ("mean", "scale")} if node["kind"] == "standardised" else {}
+            key = next((i for i, one in enumerate(self.scaled) if one[0] == told and _is_same(one[1], scaler)), None)
+            if key is None:
+                self.scaled.append((told, scaler))
+            self.given.append(len(self.scaled) - 1 if key is None else key)
+            self.regressors.append(regressor(node["inner"] if scaler else node, solver))
         nodes: list[Node] = []
         groups: list[list[int]] = []
         for place, member in enumerate(numbers["members"]):
@@ -37,8 +45,8 @@ class Members:
         """Positions (n_rows, n_coordinates) in mm, without zeros of sessions, at inputs: commands alone, or with what
         the robot remembers and the session; and the spread in mm of one member that has one.
         """
-        told = self._features(inputs)
-        answers = [one(told[key]) for one, key in zip(self.regressors, self.told, strict=True)]
+        features = self._features(inputs)
+        answers = [one(features[place]) for one, place in zip(self.regressors, self.given, strict=True)]
         if len(answers) == 1:
             (targets, spread), (of_one, _) = answers[0], self.spaces[0]
             return of_one.positions(targets), None if spread is None else of_one.spread(targets, spread)
@@ -52,22 +60,26 @@ class Members:
     def __len__(self) -> int:
         return len(self.regressors)
 
-    def _features(self, inputs: Values) -> dict[tuple[bool, tuple[int, ...]], Values]:
-        """What members are given of inputs, by what they are told."""
+    def _features(self, inputs: Values) -> list[Values]:
+        """What members are given of inputs, each kind once: columns that they are told, by their scaler."""
         n = self.n_commands
-        commands = inputs[:, :n]
-        if inputs.shape[1] == n:
-            return dict.fromkeys(self.moved, commands)
-        moved = commands[:, None] - inputs[:, n:-1].reshape(len(inputs), -1, n)
-        return {
-            told: np.hstack([commands, moved[:, places].reshape(len(inputs), -1)]) if places else commands
-            for told, places in self.moved.items()
-        }
+        commands, whole = inputs[:, :n], inputs
+        if inputs.shape[1] > n:
+            moved = commands[:, None] - inputs[:, n:-1].reshape(len(inputs), -1, n)
+            whole = np.concatenate([commands, moved.reshape(len(inputs), -1)], axis=1)
+        given = []
+        for told, scaler in self.scaled:
+            some = commands if told is None else whole if len(told) == whole.shape[1] else whole.take(told, axis=1)
+            given.append((some - scaler["mean"]) / scaler["scale"] if scaler else some)
+        return given
 
 
-def _places(has_step: bool, widths: tuple[int, ...]) -> list[int]:
-    """Of the step from the previous command, 0, and of play operators, whose widths begin at 1."""
-    return [*([0] if has_step else []), *(1 + int(width) for width in widths)]
+def _places(n_commands: int, has_step: bool, widths: Values) -> list[int] | None:
+    """Columns that a member is told: commands, the step from the previous command, and how far each of some play
+    operators is behind; None: commands alone.
+    """
+    blocks = [0, *([1] if has_step else []), *(2 + int(width) for width in widths)]
+    return [n_commands * block + place for block in blocks for place in range(n_commands)] if blocks[1:] else None
 
 
 def _is_same(one: Any, other: Any) -> bool:

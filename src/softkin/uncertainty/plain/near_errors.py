@@ -66,19 +66,20 @@ def of_one_command(node: Node) -> Callable[[Values], Values]:
         own = np.flatnonzero((node["by_norm"] == by_norm) & (shares > 0))
         if len(own):
             places = node["neighbours"][own] - 1
-            kinds.append((by_norm, own, places, np.unique(places), np.ascontiguousarray(node["errors"][:, own])))
+            errors = np.ascontiguousarray(node["errors"][:, own])
+            kinds.append((by_norm, own, places, np.unique(places), errors, shares[own], 1 - shares[own]))
 
     def answer(commands: Values) -> Values:
         row = (commands[0] - mean) / scale
         near = np.ones(len(shares) + 1)
-        for by_norm, own, places, distinct, errors in kinds:
+        for by_norm, own, places, distinct, errors, share, rest in kinds:
             apart = np.sqrt((row * row).sum()) - norms if by_norm else points - row[:, None]
             squares = apart * apart if by_norm else (apart * apart).sum(axis=0)
             farthest = np.partition(squares, distinct)[places] * (1 + SAME_SHARE) + SAME
             some = np.flatnonzero(squares <= farthest.max())
             is_near = squares[some, None] <= farthest
             means = (errors.take(some, axis=0) * is_near).sum(axis=0) / is_near.sum(axis=0)
-            near[own] = np.maximum(shares[own] * means + (1 - shares[own]), node["least"])
+            near[own] = np.maximum(share * means + rest, node["least"])
         return near[node["column"]][None]
 
     return answer
