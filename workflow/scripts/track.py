@@ -32,9 +32,7 @@ with job(snakemake.log[0], f"track {snakemake.wildcards.dataset}", snakemake.out
         n_intervals = log_intervals(
             campaign, **of_dataset, metrics=files.intervals, figures=files.figures, parents=logged
         )
-        log_orientation(
-            campaign, **of_dataset, scores=next(iter(files.orientation), None), parent=logged["campaign"]
-        )
+        log_orientation(campaign, **of_dataset, scores=next(iter(files.orientation), None), parent=logged["campaign"])
         version = log_champion(
             campaign,
             **of_dataset,

@@ -130,6 +130,7 @@ DESCRIBERS: dict[str, Describer] = {
     "LinearRegression": of_linear,
     "Lasso": of_linear,
     "Ridge": of_linear,
+    "HuberRegressor": of_linear,  # of models that an earlier version wrote
     "QuickHuber": of_linear,
     "BoundedGaussianProcess": describe_kernels.of_gaussian_process,
     "SVR": describe_kernels.of_support_vectors,
