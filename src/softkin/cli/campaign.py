@@ -51,13 +51,28 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except SoftkinError as error:
         print(f"softkin: {error}", file=sys.stderr)
         return EXIT_CODES[FAILED]
+    try:
+        verdict = _locked(asked)
+    except OSError as error:  # of the verdict's files, say
+        reason = str(explained(error, ()) or error)
+        print(f"softkin: {reason}", file=sys.stderr)
+        verdict = Verdict(FAILED, [reason])
+    if verdict is None:
+        return EXIT_CODES[BUSY]
+    print(verdict.as_markdown())
+    tell(verdict, command=asked.notify, urls=urls)
+    return verdict.exit_code
+
+
+def _locked(asked: Arguments) -> Verdict | None:
+    """Run the campaign under its lock; its verdict, None where another one goes on."""
     os.chdir(asked.directory)  # a store in a file is named from here
     results = asked.directory / "results"
     results.mkdir(parents=True, exist_ok=True)
     lock = HeldLock.of(results / LOCK, HOLDER)
     if not lock.take():
         print(f"softkin: a campaign goes on in {asked.directory}: {lock.holder()}.", file=sys.stderr)
-        return EXIT_CODES[BUSY]
+        return None
     try:
         # That of the last campaign would be taken for that of this one, where this one is killed.
         _write(results, Verdict(UNFINISHED, [f"It began at {datetime.now(UTC):%Y-%m-%d %H:%M:%S} UTC."]))
@@ -65,9 +80,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         _write(results, verdict)
     finally:
         lock.release()
-    print(verdict.as_markdown())
-    tell(verdict, command=asked.notify, urls=urls)
-    return verdict.exit_code
+    return verdict
 
 
 def _write(results: Path, verdict: Verdict) -> None:

@@ -6,9 +6,11 @@ import importlib
 import importlib.util
 import logging
 import os
+import signal
 import subprocess
 import sys
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from typing import Any
 
 from softkin.campaigns.schedules import APPRISE
@@ -17,6 +19,8 @@ from softkin.core.errors import ConfigError
 
 #: Environment variable: URLs of Apprise, blanks between them.
 URLS = "NOTIFY_URLS"
+#: Seconds that the command has: a service that does not end is not started the next night.
+PATIENCE = 60.0
 #: Apprise's words for exit codes; all others are failures.
 TYPES = {0: "success", 3: "warning", 4: "warning"}
 
@@ -61,9 +65,20 @@ def tell(verdict: Verdict, *, command: str | None, urls: Sequence[str]) -> None:
 
 def _run(command: str, verdict: Verdict) -> Iterator[str]:
     environment = os.environ | {"SOFTKIN_OUTCOME": verdict.outcome, "SOFTKIN_EXIT_CODE": str(verdict.exit_code)}
-    done = subprocess.run(command, shell=True, input=verdict.as_markdown(), text=True, env=environment, check=False)
-    if done.returncode:
-        yield f"the notification ended with exit code {done.returncode}: {command}"
+    with subprocess.Popen(
+        command, shell=True, stdin=subprocess.PIPE, text=True, env=environment, start_new_session=True
+    ) as told:
+        try:
+            told.communicate(verdict.as_markdown(), timeout=PATIENCE)
+        except BaseException as error:
+            with suppress(ProcessLookupError):
+                os.killpg(told.pid, signal.SIGKILL)
+            if not isinstance(error, subprocess.TimeoutExpired):
+                raise
+            yield f"the notification was ended, since it took more than {PATIENCE:g} seconds: {command}"
+            return
+    if told.returncode:
+        yield f"the notification ended with exit code {told.returncode}: {command}"
 
 
 def _send(urls: Sequence[str], verdict: Verdict) -> Iterator[str]:

@@ -149,13 +149,27 @@ def read_record(record: Path) -> dict[str, Any] | None:
     """The content of a record; None where it is none, which makes what it recorded unknown."""
     try:
         content = read_json(record)
-        entries = content["files"].values()
         is_record = isinstance(content["job"], str) and all(
-            {"output", "sha256", "bytes", "mtime_ns"} <= set(entry) for entry in entries
+            _is_inside(name, record) and _is_inside(entry["output"], record) and _is_entry(entry)
+            for name, entry in content["files"].items()
         )
     except (DataError, OSError, ValueError, TypeError, KeyError, AttributeError):
         return None
     return content if is_record else None
+
+
+def _is_inside(name: str, record: Path) -> bool:
+    """Whether a path leads from the folder of a run into its results, where the record is: into no others."""
+    parts = Path(name).parts
+    return ".." not in parts and "\0" not in name and parts[:1] == (_results_of(record).name,)
+
+
+def _results_of(record: Path) -> Path:
+    return next(folder.parent for folder in record.absolute().parents if folder.name == FOLDER)
+
+
+def _is_entry(entry: Mapping[str, Any]) -> bool:
+    return isinstance(entry["sha256"], str) and all(isinstance(entry[name], int) for name in ("bytes", "mtime_ns"))
 
 
 def _names_in(log: str | Path) -> tuple[str, ...]:

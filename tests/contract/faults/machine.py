@@ -12,6 +12,11 @@ BAD = "contract/test_bad_inputs.py::test_a_bad_input_has_one_message_with_place_
 FAULTS = [
     Fault("the disk is full", "one message that names the file; what is finished is kept", BAD),
     Fault("a folder may not be written", "one message that names it", BAD),
+    Fault(
+        "a folder is in the place of the verdict, or the results cannot be written, when a campaign begins",
+        "one message that names it, exit code 1",
+        f"{CAMPAIGN}::test_what_cannot_be_written_is_one_message",
+    ),
     Fault("the memory is used up", "one message with its fix", BAD),
     Fault(
         "the clock jumps ahead or back",

@@ -61,6 +61,11 @@ FAULTS = [
         f"{RECORDS}::test_what_softkin_did_not_write_is_never_unpickled",
     ),
     Fault(
+        "the record of a job names files elsewhere, or has other values than hashes",
+        "it records nothing",
+        f"{RECORDS}::test_a_record_of_files_elsewhere_or_of_other_values_is_none",
+    ),
+    Fault(
         "the record of a job is torn",
         "it records nothing; `make verify` says so",
         f"{RECORDS}::test_a_record_that_is_none_records_nothing",

@@ -81,6 +81,23 @@ def test_a_workflow_that_fails_is_a_verdict_with_what_its_jobs_said(
     assert told.read_text() == f"failed 1\n{page}"
 
 
+@pytest.mark.parametrize("place", ["results", "results/verdict.json", "results/verdict.md", "results/campaign.lock"])
+def test_what_cannot_be_written_is_one_message(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], place: str
+) -> None:
+    """A file where a folder belongs, folders where files belong: somebody is told nevertheless."""
+    monkeypatch.setattr(campaign, "run_workflow", lambda *_, **__: ended())
+    (tmp_path / place).parent.mkdir(exist_ok=True)
+    (tmp_path / place).write_text("") if place == "results" else (tmp_path / place / "full").mkdir(parents=True)
+    assert campaign.main(["--directory", str(tmp_path), "--notify", f"cat > '{tmp_path}/told'"]) == 1
+    assert "# The campaign failed" in (tmp_path / "told").read_text()
+    (said,) = capsys.readouterr().err.strip().split("softkin: ")[1:]
+    assert place.rpartition("/")[2] in said
+    assert "fix: " in said
+    assert campaign.main(["--directory", str(tmp_path / "nowhere")]) == 1
+    assert "nowhere: no such file or directory" in capsys.readouterr().err
+
+
 def test_a_campaign_that_was_stopped_says_by_what(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(campaign, "run_workflow", lambda *_, **__: ended(signal="SIGTERM"))
     assert campaign.main(["--directory", str(tmp_path)]) == 1

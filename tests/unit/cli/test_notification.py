@@ -4,6 +4,7 @@ import importlib.util
 import json
 import sys
 import threading
+import time
 from collections.abc import Iterator
 from http.server import BaseHTTPRequestHandler, HTTPServer
 from pathlib import Path
@@ -14,7 +15,7 @@ import pytest
 
 from softkin.campaigns.schedules import APPRISE
 from softkin.campaigns.verdict import FAILED, GOT_WORSE, SAME_RESULTS, Verdict
-from softkin.cli import campaign
+from softkin.cli import campaign, notification
 from softkin.cli.notification import URLS, shown, take_urls, tell
 from softkin.core.errors import ConfigError
 from tests.conftest import HOUSE
@@ -96,6 +97,20 @@ def test_urls_without_apprise_are_an_error_that_shows_none(monkeypatch: pytest.M
 
 def test_the_extra_installs_the_version_that_is_named() -> None:
     assert f'notify = [\n  "{APPRISE}",\n]' in (HOUSE / "pyproject.toml").read_text()
+
+
+def test_a_command_that_hangs_is_ended_with_its_children(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(notification, "PATIENCE", 0.3)
+    began = time.monotonic()
+    tell(WORSE, command=f"sleep 60 & echo $! > '{tmp_path}/child'; wait", urls=[])
+    assert time.monotonic() - began < 10
+    assert "the notification was ended, since it took more than 0.3 seconds: sleep 60" in capsys.readouterr().err
+    child = Path("/proc", (tmp_path / "child").read_text().strip(), "cmdline")
+    while child.exists() and child.read_bytes():  # a child that has ended and nobody waits for has no command
+        assert time.monotonic() - began < 10
+        time.sleep(0.02)
 
 
 def test_a_command_that_fails_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -5,14 +5,23 @@ import pickle
 import shutil
 import time
 from pathlib import Path
+from typing import Any
 
 import joblib
 import pytest
 
 from softkin.core.errors import ResultError
-from softkin.core.files import read_json
+from softkin.core.files import read_json, write_json
 from softkin.core.job import job
-from softkin.core.job_records import damages, forget_job, load_model, record_job, record_of, recorded_sha256
+from softkin.core.job_records import (
+    damages,
+    forget_job,
+    load_model,
+    read_record,
+    record_job,
+    record_of,
+    recorded_sha256,
+)
 
 LOG = Path("results/logs/fit_model/finger/gp.log")
 MODEL = Path("results/finger/gp/tuned/model.joblib")
@@ -104,6 +113,31 @@ def test_a_record_that_is_none_records_nothing(results: Path, content: str) -> N
     assert recorded_sha256(MODEL) is None
     with pytest.raises(ResultError, match="no record"):
         load_model(MODEL)
+
+
+@pytest.mark.parametrize(
+    ("name", "changes"),
+    [
+        ("/etc/passwd", {}),
+        ("../../etc/passwd", {}),
+        ("results/../../etc/passwd", {}),
+        ("config/config.yaml", {}),
+        ("results/a\0.csv", {}),
+        ("results/a.csv", {"output": 3}),
+        ("results/a.csv", {"output": "/etc"}),
+        ("results/a.csv", {"sha256": None}),
+        ("results/a.csv", {"bytes": "1"}),
+    ],
+)
+def test_a_record_of_files_elsewhere_or_of_other_values_is_none(
+    results: Path, name: str, changes: dict[str, Any]
+) -> None:
+    entry = {"output": "results/a.csv", "sha256": "0" * 64, "bytes": 1, "mtime_ns": 1}
+    write_json(record_of(LOG), {"job": "score arm", "params": {}, "files": {"results/a.csv": entry}})
+    assert read_record(record_of(LOG)) is not None
+    write_json(record_of(LOG), {"job": "score arm", "params": {}, "files": {name: entry | changes}})
+    assert read_record(record_of(LOG)) is None
+    assert found(results) == []
 
 
 def test_a_model_is_loaded_by_any_path_to_it(results: Path, tmp_path: Path) -> None:
