@@ -42,6 +42,8 @@ FILES = {
 }
 
 
+#: Those of some datasets alone, by the parameters of `read_tables`.
+OF_SOME = {"recorded": "recorded", "learning": "learning_curve", "orientation": "orientation"}
 #: Where a run says with which configuration it was made.
 SUMMARY = Path("tables", "summary.json")
 
@@ -129,8 +131,7 @@ def _tables(results: Path, config: Mapping[str, Any], searched: Mapping[str, lis
             for model, preset in runs
         },
         objective=config["objective"],
-        recorded=_collected(results, "recorded"),
-        learning=_collected(results, "learning_curve"),
+        **{key: _collected(results, name) for key, name in OF_SOME.items()},
         published=PublishedFiles(
             *(
                 PUBLISHED / f"{name}.csv"

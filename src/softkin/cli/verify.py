@@ -18,7 +18,7 @@ from softkin.core.job_records import FOLDER, damages, records
 #: Tables of a dataset that take fits, resampling or calibration data: their jobs would have to run again.
 HELD = (
     *("interval_choice", "conditional_coverage", "alarm_rates", "extrapolation_intervals", "target_spaces"),
-    *("left_out", "learning_curve", "recorded"),
+    *("left_out", "learning_curve", "recorded", "orientation"),
 )
 
 

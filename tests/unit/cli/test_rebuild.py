@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import re
 import shutil
 from dataclasses import asdict
 from pathlib import Path
@@ -9,7 +10,7 @@ import pandas as pd
 import pytest
 
 from softkin.cli import rebuild
-from softkin.cli.rebuild import FILES, can_be_rebuilt, rebuilt
+from softkin.cli.rebuild import FILES, OF_SOME, can_be_rebuilt, rebuilt
 from softkin.cli.recompute import recomputed
 from softkin.core.errors import ResultError
 from softkin.core.files import read_json, write_json
@@ -18,6 +19,7 @@ from softkin.models import MODELS
 from softkin.reporting.tables.build import build_tables
 from softkin.reporting.titles import Titles
 from softkin.uncertainty.intervals import INTERVAL_METHODS
+from tests.conftest import HOUSE
 from tests.unit.reporting.tables.conftest import SOURCES, write_run
 
 CONFIG: dict[str, Any] = {
@@ -103,3 +105,9 @@ def test_another_configuration_is_named(results: Path) -> None:
     with pytest.raises(ResultError, match="the tables were made with: objective"):
         rebuilt(results)
     assert any("the tables were made with: objective" in sentence for sentence in recomputed(results))
+
+
+def test_the_job_of_the_tables_reads_the_same_files() -> None:
+    rule = (HOUSE / "workflow" / "rules" / "tables.smk").read_text()
+    read = set(re.findall(r"results/\{dataset\}/(\w+\.\w+)", rule))
+    assert read == {*FILES.values(), *(f"{name}.csv" for name in OF_SOME.values())}
