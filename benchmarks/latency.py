@@ -31,6 +31,7 @@ import numpy as np
 from softkin.core.samples import Array, Params, Samples
 from softkin.core.shells import command_norm
 from softkin.models import MODELS
+from softkin.models.estimators.kinematic_regressor import KinematicRegressor
 from softkin.training.kinematic_model import FitSettings, fitted_model
 from softkin.uncertainty.calibrated import FittedModel, calibrated
 from softkin.uncertainty.calibrated_model import CalibratedModel
@@ -179,6 +180,8 @@ def exported(robot: CalibratedModel, folder: Path) -> Any:
 
 def by_hand(robot: CalibratedModel) -> Callable[[Array], Array] | None:
     """The position by a few lines of numpy, of a Gaussian process with an RBF kernel in positions; else None."""
+    if not isinstance(robot.estimator, KinematicRegressor):
+        return None
     scaler, gp = robot.estimator.regressor_[0], robot.estimator.regressor_[-1]
     posterior, target = getattr(gp, "posterior_", None), robot.estimator.transformer_
     if posterior is None or gp.kernel != "rbf" or gp.trend != "linear" or not hasattr(target, "constants_"):

@@ -47,7 +47,7 @@ class Surroundings:
         if len(rows) == 1 and len(self.points) <= MOST_POINTS:
             apart = self.columns - rows[0][:, None]
             apart *= apart
-            return np.asarray(np.sqrt(apart.sum(axis=0).min(keepdims=True)) > self.gap)
+            return np.asarray(np.sqrt(np.add.reduce(apart).min(keepdims=True)) > self.gap)
         if self.cells is None or len(rows) < FEWEST_ROWS:
             return np.asarray(self._nearest(rows) > self.gap)
         unknown = np.flatnonzero(~self._stand_in_cells(rows))

@@ -208,7 +208,7 @@ def _trees(node: Node, solver: Solver) -> Regressor:
         found = values.take(leaves(x), axis=0)
         if roots.ndim == 1:
             spread = found.std(axis=1) if node["has_spread"] else None
-            return found.mean(axis=1) + constant, spread
+            return np.add.reduce(found, axis=1) / roots.size + constant, spread
         if not node["single_sums"]:
             return found[..., 0].sum(axis=2) + constant, None
         terms = np.empty((*found.shape[:2], 1 + found.shape[2]), dtype=np.float32)

@@ -49,7 +49,7 @@ def _squares(term: Node, points: Values) -> Callable[[Values], Values]:
     def squares(x: Values) -> Values:
         apart = columns - (x / lengths)[:, :, None]
         apart *= apart
-        return np.asarray(apart.sum(axis=1))
+        return np.asarray(np.add.reduce(apart, axis=1))
 
     return squares
 

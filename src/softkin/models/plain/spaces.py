@@ -54,11 +54,11 @@ def _arcs(node: Node) -> Space:
     origin, axes, near_constant = node["origin"], node["axes"], node["near_constant"]
     others = space(node["others"]) if "others" in node else None
 
-    is_whole = len(moving) == len(constants)
+    is_whole, is_upright = len(moving) == len(constants), np.array_equal(axes, np.eye(3)) and not origin.any()
 
     def positions(targets: Values) -> Values:
         bent = arcs.positions(targets[:, :n_arcs]).reshape(len(targets), -1, 3)
-        points = from_arcs(bent) @ axes.T + origin
+        points = from_arcs(bent) if is_upright else from_arcs(bent) @ axes.T + origin
         if not is_whole:
             moved, points = points, constants[None].repeat(len(targets), axis=0)
             points[:, moving] = moved
