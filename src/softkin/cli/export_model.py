@@ -5,19 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from softkin.core.files import write_text
+from softkin.core.files import replacing
 from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.export.c_header import c_header
 from softkin.uncertainty.export.c_text import identifier
 from softkin.uncertainty.export.numbers import LEVELS
+from softkin.uncertainty.export.onnx_file import onnx_file
 from softkin.uncertainty.export.python_file import python_file
 from softkin.uncertainty.export.rounding import known_to
 from softkin.uncertainty.orientation_model import ORIENTATION
 
-#: Form -> ending of its file, and what writes its text of a model, its levels and the name of what it defines.
-FORMS: dict[str, tuple[str, Callable[[CalibratedModel, Sequence[float], str], str]]] = {
+#: Form -> ending of its file, and what writes its content of a model, its levels and the name of what it defines.
+FORMS: dict[str, tuple[str, Callable[[CalibratedModel, Sequence[float], str], str | bytes]]] = {
     "python": (".py", lambda robot, levels, name: python_file(robot, levels, name=name)),
     "c": (".h", lambda robot, levels, name: c_header(robot, levels, name=name)),
+    "onnx": (".onnx", lambda robot, levels, _: onnx_file(robot, levels)),
 }
 
 
@@ -43,8 +45,9 @@ def written(
         ConfigError: a part of the model cannot be written, or a level is none; nothing is written then.
     """
     plain = identifier(name or robot.dataset)
-    texts = {FORMS[form][0]: FORMS[form][1](robot, levels or LEVELS, plain) for form in forms}
-    files = [folder / f"{plain}{ending}" for ending in texts]
-    for path, text in zip(files, texts.values(), strict=True):
-        write_text(path, text)
+    contents = {FORMS[form][0]: FORMS[form][1](robot, levels or LEVELS, plain) for form in forms}
+    files = [folder / f"{plain}{ending}" for ending in contents]
+    for path, content in zip(files, contents.values(), strict=True):
+        with replacing(path) as temporary:
+            temporary.write_bytes(content if isinstance(content, bytes) else content.encode())
     return files

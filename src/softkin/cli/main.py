@@ -46,6 +46,7 @@ class Export(StrEnum):
 
     PYTHON = "python"
     C = "c"
+    ONNX = "onnx"
 
 
 Model = Annotated[Path, typer.Argument(help="calibrated_model.joblib of a finished run")]
@@ -206,7 +207,7 @@ def check(
 def export(
     robot: Any,
     to: Annotated[Path, typer.Option(help="folder that the files go to")] = Path(),
-    form: Annotated[list[Export] | None, typer.Option(help="python, c; both where left out")] = None,
+    form: Annotated[list[Export] | None, typer.Option(help="python, c, onnx; the first two where left out")] = None,
     level: Annotated[list[float] | None, typer.Option(help="levels to store; 0.8, 0.9 and 0.95 where left out")] = None,
     name: Annotated[str | None, typer.Option(help="of the files and of what they define; default: the robot's")] = None,
     as_json: AsJson = False,
@@ -214,7 +215,7 @@ def export(
     """A numpy-only Python file and a C header: position, interval, `outside` and failures, as the model says."""
     from softkin.cli.export_model import remarks, written
 
-    files = written(robot, to, [str(one) for one in form or Export], level, name)
+    files = written(robot, to, [str(one) for one in form or (Export.PYTHON, Export.C)], level, name)
     for remark in remarks(robot):
         print(f"softkin: {remark}", file=sys.stderr)
     print(json.dumps([str(path) for path in files]) if as_json else "\n".join(map(str, files)))
