@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
@@ -13,8 +14,12 @@ from softkin.core.rotations import DEGREES, RADIANS, TOLERANCE, XYZW, about, are
 from softkin.core.samples import TRAIN, Array, Samples
 from softkin.data.readers import columns
 
+logger = logging.getLogger("softkin")
+
 #: The key of an entry, and of a dataset's description, for the orientation.
 KEY = "orientation"
+#: Degrees from the mean: near a half turn a rotation vector jumps to its negative.
+FAR_TURN = 150.0
 
 
 def places(names: Sequence[str], source: Mapping[str, Any], used: Sequence[int]) -> list[int]:
@@ -75,5 +80,15 @@ def about_mean(samples: Mapping[str, Samples], source: Mapping[str, Any]) -> tup
     vectors = {subset: np.asarray(rows.orientation) for subset, rows in samples.items()}
     mean = mean_of(vectors[TRAIN])
     turned = {subset: replace(rows, orientation=about(vectors[subset], mean)) for subset, rows in samples.items()}
+    _warn_of_half_turns(turned[TRAIN], source)
     said = {**source[KEY], "mean_xyzw": to_numbers(mean[None], XYZW)[0].tolist(), "mean_vector": mean.tolist()}
     return turned, {KEY: said}
+
+
+def _warn_of_half_turns(train: Samples, source: Mapping[str, Any]) -> None:
+    """Say that the tip turns so far that what is modelled jumps."""
+    turns = np.degrees(np.linalg.norm(np.asarray(train.orientation), axis=1))
+    if (n_far := int((turns > FAR_TURN).sum())) > 0:
+        what = f"{n_far} of {len(turns)} rows of `train` are turned by more than {FAR_TURN:g} degrees from their mean"
+        fix = "check `kind` and the order of its columns; a tip that turns so far is modelled badly, as its scores show"
+        logger.warning("%s", DataError(what, where=f"`{KEY}`, columns {', '.join(source[KEY]['columns'])}", fix=fix))

@@ -83,6 +83,15 @@ def test_rows_of_a_body_that_was_lost_are_left_out_where_the_entry_says_so(tmp_p
         assert counts == {"rows_with_gaps": 2}
 
 
+def test_a_tip_that_turns_half_around_is_warned_of(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    wrong = written(tmp_path, "roll_pitch_yaw_degrees")
+    prepared(tmp_path, wrong)
+    assert "turned by more than" not in caplog.text
+    wrong["orientation"]["kind"] = "roll_pitch_yaw_radians"
+    prepared(tmp_path, wrong)
+    assert "turned by more than 150 degrees from their mean" in caplog.text
+
+
 def test_a_column_has_one_role(tmp_path: Path) -> None:
     source = written(tmp_path)
     with pytest.raises(DataError, match="'o0' stands in `commands`"):
