@@ -29,5 +29,5 @@ def known_to(robot: Any) -> str:
         return ""
     return (
         f"Known to {apart:.0e} {unit}: so far apart, by rounding, are the model's answers to one command and to many "
-        "at once; exports answer as for one."
+        "at once; exports answer as for one, but for the rounding of a spread."
     )
