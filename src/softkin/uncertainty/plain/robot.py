@@ -26,6 +26,10 @@ class PlainRobot:
         self.members = Members(numbers, solver)
         self.surroundings, self.difficulty = numbers["surroundings"], numbers["difficulty"]
         self.points = self.surroundings["points"].T.copy()
+        if self.growths:
+            names = ("floor", "slope", "bend", "steepest", "reach")
+            parts = ([np.atleast_1d(growth[name]) for growth in self.growths] for name in names)
+            self.grown = [np.stack(part)[:, None] for part in parts]
         if self.difficulty["kind"] == "distance":
             self.neighbours = self.difficulty["points"].T.copy()
         if self.difficulty["kind"] == "held_out":
@@ -75,12 +79,13 @@ class PlainRobot:
         """In-domain `bounds`, in which those of commands that lie outside are other ones, where there are shells."""
         if self.growths is None or not outside.any():
             return bounds
-        middle, widest = predicted[outside], self._widest(norms[outside], table)
+        rows = slice(None) if outside.all() else outside
+        middle, widest = predicted[rows], self._widest(norms[rows], table)
         lower, upper = middle - widest, middle + widest
         if self.numbers["has_spread"]:
-            lower = np.minimum(bounds[..., 0][:, outside], lower)
-            upper = np.maximum(bounds[..., 1][:, outside], upper)
-        bounds[:, outside] = np.stack([lower, upper], axis=-1)
+            lower = np.minimum(bounds[..., 0][:, rows], lower)
+            upper = np.maximum(bounds[..., 1][:, rows], upper)
+        bounds[:, rows] = np.stack([lower, upper], axis=-1)
         return bounds
 
     def from_rest(self, commands: Values) -> Values:
@@ -139,14 +144,15 @@ class PlainRobot:
 
     def _widest(self, norms: Values, table: Node) -> Values:
         """Half-widths (n_levels, n_rows, n_coordinates) in mm in extrapolation."""
-        x = np.log(np.maximum(norms / self.surroundings["radius"], 1.0))[:, None]
         widest = table["limits"][:, None]
-        for growth, limits in zip(self.growths, table["growth_limits"], strict=True):
-            slope, bend, reach, steepest = growth["slope"], growth["bend"], growth["reach"], growth["steepest"]
+        if self.growths:
+            floor, slope, bend, steepest, reach = self.grown
+            x = np.log(np.maximum(norms / self.surroundings["radius"], 1.0))[:, None]
             near = np.minimum(x, reach)
-            grown = np.exp(growth["floor"] + (near * slope + near**2 * bend + (x - near) * steepest))
-            widest = np.maximum(widest, limits[:, None] * grown)
-        return np.broadcast_to(widest, (len(widest), len(x), widest.shape[2]))
+            grown = np.exp(floor + (near * slope + near**2 * bend + (x - near) * steepest))
+            limits = np.stack(table["growth_limits"])[:, :, None]
+            widest = np.maximum(widest, (limits * grown[:, None]).max(axis=0))
+        return np.broadcast_to(widest, (len(widest), len(norms), widest.shape[2]))
 
 
 def _squared_distances(points: Values, rows: Values) -> Values:
