@@ -13,6 +13,7 @@ import pytest
 import yaml
 from mlflow import MlflowClient
 
+from softkin.core.csv_tables import read_csv
 from softkin.core.files import read_json
 from softkin.core.metrics.interval import fewest_commands
 from softkin.core.run_archive import read_run_archive
@@ -51,7 +52,7 @@ PREDICTIVE = [name for name, spec in POOL.items() if spec.is_predictive]
 def refitted_runs(house: House, dataset: str) -> set[Run]:
     """The runs that were refitted on folds: the paper's, and the chosen one where its model is cheap."""
     results = house.work / "results"
-    selection = pd.read_csv(results / "tables" / "selection.csv")
+    selection = read_csv(results / "tables" / "selection.csv")
     (chosen,) = selection[(selection["dataset"] == dataset) & selection["deployed"]].itertuples()
     is_cheap = chosen.model in POOL and POOL[chosen.model].is_cheap
     wanted = {PAPERS_RUN} | ({Run(chosen.model, chosen.preset)} if is_cheap else set())
@@ -64,7 +65,7 @@ TIMINGS = ["fit_seconds", "predict_us_per_row"]
 
 
 def test_point_metrics_have_a_row_for_everything(house: House) -> None:
-    table = pd.read_csv(house.work / "results" / "tables" / "point_metrics.csv")
+    table = read_csv(house.work / "results" / "tables" / "point_metrics.csv")
     wanted = {(d, s, m, p) for d in DATASETS for s in SUBSETS for m, p in RUNS}
     assert set(table[["dataset", "subset", "model", "preset"]].itertuples(index=False, name=None)) == wanted
     assert len(table) == len(wanted)
@@ -77,7 +78,7 @@ def test_point_metrics_have_a_row_for_everything(house: House) -> None:
 
 @pytest.mark.parametrize(("objective", "score"), [("interpolation", "cv_mae_mm"), ("extrapolation", "shell_mae_mm")])
 def test_selection_follows_the_score_of_its_objective(house: House, objective: str, score: str) -> None:
-    selection = pd.read_csv(house.work / "results" / "tables" / "selection.csv").set_index(["dataset", "objective"])
+    selection = read_csv(house.work / "results" / "tables" / "selection.csv").set_index(["dataset", "objective"])
     for dataset in DATASETS:
         scores = {
             (model, preset): read_json(house.work / "results" / dataset / model / preset / "parameters.json")[score]
@@ -93,7 +94,7 @@ def test_the_paper_tables_are_laid_out_and_cut_rows_are_marked(house: House) -> 
     text = (house.work / "results" / "tables" / "paper_tables.md").read_text()
     for part in ("### Table 2", "### Table 5: comparison on FINGER", "not in the paper", "left rows out"):
         assert part in text
-    comparison = pd.read_csv(house.work / "results" / "tables" / "published_comparison.csv")
+    comparison = read_csv(house.work / "results" / "tables" / "published_comparison.csv")
     assert len(comparison) == 2 * 4 * len(set(POOL) & {"lr", "lasso", "rf", "gb", "xgb", "svr", "gp", "mlp"})
     assert set(comparison["paper_verdict"]) | set(comparison["tuned_verdict"]) <= {"reproduced", "better", "worse"}
     assert comparison["note"].str.contains("left rows out").all()
@@ -110,7 +111,7 @@ def test_the_run_ends_with_the_headline(house: House) -> None:
 
 
 def test_interval_metrics_have_a_row_for_everything(house: House) -> None:
-    table = pd.read_csv(house.work / "results" / "tables" / "interval_metrics.csv")
+    table = read_csv(house.work / "results" / "tables" / "interval_metrics.csv")
     keys = ["dataset", "subset", "model", "preset", "interval_method", "coordinate", "confidence_level"]
     assert not table.duplicated(keys).any()
     rows = table["interval_method"].value_counts().to_dict()
@@ -139,9 +140,9 @@ def test_interval_metrics_have_a_row_for_everything(house: House) -> None:
     np.testing.assert_allclose(engines["scp_mapie"], engines["scp_crepes"], rtol=1e-9)
     text = (house.work / "results" / "tables" / "paper_tables.md").read_text()
     assert "### Table 6" in text
-    published = pd.read_csv(house.work / "results" / "tables" / "published_intervals.csv")
+    published = read_csv(house.work / "results" / "tables" / "published_intervals.csv")
     assert len(published) == 8  # FINGER: four methods, coverage and Winkler score
-    choice = pd.read_csv(house.work / "results" / "tables" / "interval_choice.csv")
+    choice = read_csv(house.work / "results" / "tables" / "interval_choice.csv")
     assert choice.groupby("dataset")["chosen"].sum().to_dict() == dict.fromkeys(DATASETS, 1)
     assert choice["test_winkler_mm"].gt(0).all()
     deployed = choice[choice["deployed"]]
@@ -154,7 +155,7 @@ def test_interval_metrics_have_a_row_for_everything(house: House) -> None:
 
 
 def test_every_interval_in_extrapolation_stands_beside_the_oracle(house: House) -> None:
-    table = pd.read_csv(house.work / "results" / "tables" / "extrapolation_intervals.csv")
+    table = read_csv(house.work / "results" / "tables" / "extrapolation_intervals.csv")
     runs = table.groupby("dataset")[["model", "preset"]].apply(lambda rows: set(map(tuple, rows.to_numpy())))
     for dataset in DATASETS:
         assert ("gb", "paper") in runs[dataset]
@@ -288,7 +289,7 @@ def test_a_dataset_a_model_and_a_method_that_fail_take_the_tables_of_nothing_els
     ):
         assert missing in " ".join(said.split())
         assert missing in " ".join(output.split())
-    table = pd.read_csv(tmp_path / "results" / "tables" / "interval_metrics.csv")
+    table = read_csv(tmp_path / "results" / "tables" / "interval_metrics.csv")
     assert set(table[["dataset", "model", "interval_method"]].itertuples(index=False, name=None)) == {
         ("elastica_2023_09", "lr", "scp_mapie")
     }

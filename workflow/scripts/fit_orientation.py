@@ -5,7 +5,7 @@ import joblib
 from softkin.core.files import read_json, replacing
 from softkin.core.job import job
 from softkin.evaluation.score_orientation import score_orientation
-from softkin.uncertainty.orientation_model import orientation_model
+from softkin.uncertainty.build_orientation_model import orientation_model
 
 files, params, output, dataset = snakemake.input, snakemake.params, snakemake.output, snakemake.wildcards.dataset
 with job(snakemake.log[0], f"fit orientation {dataset}", snakemake.output, snakemake.input, snakemake.params):

@@ -15,7 +15,8 @@ from softkin.core.job import stopwatch
 from softkin.core.samples import TRAIN
 from softkin.data.table import read_subset
 from softkin.models.spec import ModelSpec
-from softkin.training.kinematic_model import FitSettings, fit_quietly, kinematic_model, some_rows
+from softkin.training.bounded_rows import some_rows
+from softkin.training.kinematic_model import FitSettings, fit_quietly, kinematic_model
 from softkin.training.predict import predict
 
 logger = logging.getLogger("softkin")

@@ -21,7 +21,7 @@ from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, VALIDATION, Array, 
 from softkin.core.threads import limited_threads
 from softkin.data.table import read_subset
 from softkin.models.quantile.spec import QuantileSpec
-from softkin.training.kinematic_model import some_rows
+from softkin.training.bounded_rows import some_rows
 
 logger = logging.getLogger("softkin")
 

@@ -14,7 +14,6 @@ from sklearn.preprocessing import StandardScaler
 
 from softkin.core.clocks import counted_as_fit
 from softkin.core.recording import Recording
-from softkin.core.rows import sampled_rows
 from softkin.core.samples import Params, Samples
 from softkin.core.threads import limited_threads
 from softkin.models.estimators.in_sessions import InSessions
@@ -100,11 +99,3 @@ def fit_quietly(estimator: Any, samples: Samples, threads: int) -> int:
     for message in {str(w.message) for w in caught if w not in stopped}:
         logger.warning("%s", message)
     return len(stopped)
-
-
-def some_rows(samples: Samples, max_rows: int | None, seed: int) -> Samples:
-    """At most `max_rows` rows, drawn without replacement, in their order; all where it is None."""
-    if max_rows is None or len(samples) <= max_rows:
-        return samples
-    logger.warning("fitted on %d of %d rows: max_fit_rows", max_rows, len(samples))
-    return samples.take(sampled_rows(len(samples), max_rows, seed))

@@ -14,7 +14,8 @@ from softkin.core.samples import Array, Samples
 from softkin.models.estimators.memory_features import NONE, PLAY
 from softkin.models.of_orientation import CANDIDATES
 from softkin.models.spec import ModelSpec
-from softkin.training.kinematic_model import FitSettings, fitted_model, some_rows
+from softkin.training.bounded_rows import some_rows
+from softkin.training.kinematic_model import FitSettings, fitted_model
 
 logger = logging.getLogger("softkin")
 

@@ -20,7 +20,8 @@ from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, Array
 from softkin.core.shells import Shells, command_norm, outer_shells
 from softkin.data.table import read_subset
 from softkin.models.spec import ModelSpec
-from softkin.training.kinematic_model import fitted_model, recorded_settings, some_rows
+from softkin.training.bounded_rows import some_rows
+from softkin.training.kinematic_model import fitted_model, recorded_settings
 from softkin.training.members import Weights, combined
 
 logger = logging.getLogger("softkin")

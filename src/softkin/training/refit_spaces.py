@@ -15,7 +15,8 @@ from softkin.core.files import read_json, replacing
 from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, Params, coordinate_columns
 from softkin.data.table import read_subset
 from softkin.models.spec import ModelSpec
-from softkin.training.kinematic_model import fitted_model, recorded_settings, some_rows
+from softkin.training.bounded_rows import some_rows
+from softkin.training.kinematic_model import fitted_model, recorded_settings
 
 logger = logging.getLogger("softkin")
 

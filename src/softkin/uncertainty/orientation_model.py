@@ -8,18 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from softkin.core.rotations import angles, from_mean
-from softkin.core.samples import TRAIN, VALIDATION, Array, Samples
-from softkin.data.table import read_subset
-from softkin.training.orientation import fit_orientation
+from softkin.core.samples import Array, Samples
 from softkin.uncertainty.conformal import conformal_limit
 from softkin.uncertainty.intervals.spec import MARGINAL
-from softkin.uncertainty.promise import Promise, asked_levels, calibration_set
+from softkin.uncertainty.promise import Promise, asked_levels
 
 #: Key of `CalibratedModel.about` for it.
 ORIENTATION = "orientation"
@@ -55,22 +52,3 @@ class OrientationModel:
     def guarantee(self, confidence_level: float) -> str:
         """What the bound promises in-domain."""
         return MARGINAL if self.promise is None else self.promise.of_region(MARGINAL, confidence_level)
-
-
-def orientation_model(
-    table: str | Path, description: Mapping[str, Any], *, seed: int, threads: int
-) -> OrientationModel:
-    """The model of a dataset with an orientation, chosen and fitted on `train` and calibrated on `validation`.
-
-    Parameters:
-        table: its tidy table (Parquet).
-        description: of the dataset, with the mean rotation of `train`.
-        seed: everything random follows from it.
-        threads: that a fit may use.
-    """
-    fitted = fit_orientation(read_subset(table, TRAIN), seed=seed, threads=threads)
-    rows, _, promise = calibration_set(read_subset(table, VALIDATION))
-    scores = angles(np.asarray(fitted.estimator.predict(rows.inputs)), np.asarray(rows.orientation))
-    mean = np.array(description[ORIENTATION]["mean_vector"])
-    params, missed = fitted.settings.params, fitted.held_out_angles
-    return OrientationModel(fitted.name, params, fitted.estimator, mean, scores, promise, missed)

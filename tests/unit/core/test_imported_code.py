@@ -136,6 +136,8 @@ def test_a_reader_is_decided_by_the_files_that_it_reads_with() -> None:
         "core/recording.py",
         "data/recordings.py",
         "data/split_in_time.py",
+        "data/orientation.py",
+        "core/rotations.py",
     }
     assert names("table_file") == expected
     assert names("published_json") == {"data/readers/published_json.py", "core/samples.py", "core/recording.py"}

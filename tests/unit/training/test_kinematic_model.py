@@ -18,9 +18,8 @@ from softkin.training.kinematic_model import (
     fitted_model,
     kinematic_model,
     recorded_settings,
-    some_rows,
 )
-from tests.conftest import bending_arm, four_subsets
+from tests.conftest import four_subsets
 
 SETTINGS = FitSettings({"degree": 2}, skip_constant=True, seed=0, threads=1)
 
@@ -102,16 +101,3 @@ def test_a_model_is_fitted_in_the_target_space_and_around_the_base_of_its_settin
     np.testing.assert_array_equal(estimator.transformer_.frame_.origin, base["origin"])
     in_positions = fitted_model(MODELS["lr"], SETTINGS, samples)
     assert not np.allclose(estimator.predict(samples.commands), in_positions.predict(samples.commands))
-
-
-def test_a_model_that_cannot_take_all_rows_gets_some_and_the_log_says_so(caplog: pytest.LogCaptureFixture) -> None:
-    rows = bending_arm(50)
-    kept = some_rows(rows, 20, seed=0)
-    assert len(kept) == 20
-    places = [int(np.flatnonzero((rows.commands == row).all(axis=1))[0]) for row in kept.commands]
-    assert places == sorted(set(places))
-    np.testing.assert_array_equal(rows.positions[places], kept.positions)
-    assert "fitted on 20 of 50 rows: max_fit_rows" in caplog.text
-    caplog.clear()
-    assert some_rows(rows, 50, seed=0) is rows is some_rows(rows, None, seed=0)
-    assert not caplog.text

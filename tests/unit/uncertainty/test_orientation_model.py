@@ -2,21 +2,17 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.stats import binom
 
-from softkin.core.rotations import angles, from_mean
-from softkin.core.samples import SUBSETS, Samples
-from softkin.data.table import read_subset, to_table, write_table
+from softkin.core.samples import Samples
 from softkin.models.of_orientation import CANDIDATES
-from softkin.training import orientation
 from softkin.training.kinematic_model import FitSettings, fitted_model
-from softkin.uncertainty.orientation_model import OrientationModel, orientation_model
+from softkin.uncertainty.orientation_model import OrientationModel
 from softkin.uncertainty.promise import Promise
-from tests.oriented_robot import about_one_mean, oriented_arm, oriented_table
+from tests.oriented_robot import about_one_mean, oriented_arm
 
 N_CALIBRATION, N_DRAWS = 49, 200
 
@@ -53,22 +49,3 @@ def test_the_promise_is_that_of_the_split() -> None:
     assert few.bound(0.9) == 3.0
     assert few.guarantee(0.9) == "no guarantee (3 blocks)"
     assert replace(few, promise=Promise(9, 3)).guarantee(0.9) == "marginal, by block"
-
-
-def test_it_is_fitted_on_train_and_calibrated_on_validation_alone(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(orientation, "CANDIDATES", CANDIDATES[:2])
-    description = oriented_table(tmp_path / "table.parquet")
-    made = orientation_model(tmp_path / "table.parquet", description, seed=0, threads=1)
-    subsets = {name: read_subset(tmp_path / "table.parquet", name) for name in SUBSETS}
-    np.testing.assert_allclose(made.scores, made.angles(subsets["validation"]))
-    there = from_mean(np.asarray(subsets["test"].orientation), made.mean)
-    missed = angles(made.vectors(subsets["test"].inputs), there)
-    np.testing.assert_allclose(missed, made.angles(subsets["test"]), atol=1e-6)
-
-    spoilt = {name: replace(rows, orientation=np.asarray(rows.orientation)[::-1]) for name, rows in subsets.items()}
-    write_table(to_table(spoilt | {"train": subsets["train"]}), tmp_path / "spoilt.parquet")
-    again = orientation_model(tmp_path / "spoilt.parquet", description, seed=0, threads=1)
-    np.testing.assert_array_equal(again.vectors(subsets["test"].inputs), made.vectors(subsets["test"].inputs))
-    assert again.scores.mean() > 2 * made.scores.mean()
