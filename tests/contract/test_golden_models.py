@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 import softkin
 from softkin.core.errors import ResultError
 from softkin.core.files import read_json
+from softkin.core.samples import Samples
 from softkin.uncertainty import file_format
 from tests.golden.write import FOLDER, answers
 
@@ -28,6 +30,17 @@ def test_a_stored_model_answers_as_it_did(name: str) -> None:
     assert set(now) == set(said)
     for call, value in said.items():
         np.testing.assert_allclose(now[call], value, rtol=0, atol=1e-9, err_msg=call)
+
+
+@pytest.mark.parametrize("name", SAID["robots"])
+def test_rows_of_a_stored_model_have_all_fields_of_rows(name: str) -> None:
+    """Those that came after it was written have their defaults."""
+    robot = softkin.load(FOLDER / f"{name}.joblib", trust=True)
+    rows = [getattr(robot, field.name) for field in fields(robot)]
+    held = [value for value in rows if isinstance(value, Samples)]
+    assert held
+    for samples in held:
+        assert samples.take(slice(3)).orientation is None
 
 
 def test_a_later_version_refuses_them_in_a_sentence(monkeypatch: pytest.MonkeyPatch) -> None:

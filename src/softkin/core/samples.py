@@ -6,7 +6,7 @@ Array shapes, stated once: commands ``(n_rows, n_commands)``; positions ``(n_row
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any, Self
 
 import numpy as np
@@ -49,6 +49,12 @@ class Samples:
 
     def __len__(self) -> int:
         return len(self.commands)
+
+    def __setstate__(self, state: list[Any]) -> None:
+        """The values of the fields; what a model of an earlier version lacks has its default."""
+        defaults = [field.default for field in fields(self)]
+        for field, value in zip(fields(self), [*state, *defaults[len(state) :]], strict=True):
+            object.__setattr__(self, field.name, value)
 
     @property
     def inputs(self) -> Array:
