@@ -203,7 +203,8 @@ def by_hand(robot: CalibratedModel) -> Callable[[Array], Array] | None:
 def of_program(program: Path, commands: Array, robot: CalibratedModel) -> dict[str, Any]:
     """The time of a command by the C header: of many commands, less that of few."""
     few, many = commands[:1], np.resize(commands, (20 * N_CALLS, commands.shape[1]))
-    ask = partial(asked, program, n_coordinates=robot.known.truth.shape[1], level=LEVEL)
+    n_coordinates, failures = robot.known.truth.shape[1], robot.failures is not None
+    ask = partial(asked, program, n_coordinates=n_coordinates, level=LEVEL, failures=failures)
     short, long = (min(_wall_milliseconds(ask, rows) for _ in range(5)) for rows in (few, many))
     return {"median_ms": (long - short) / (len(many) - 1)}
 
