@@ -39,7 +39,7 @@ FOOT = """
 model's own answer to one command is from its answer to the same command among many, which scikit-learn sums: a Gaussian
 process of a nearly noiseless robot weighs its rows with large numbers of either sign, and no export can be nearer to
 its sums. One command and exports are answered from an expansion that does not cancel:
-[0035](decisions/0035-models-are-exported-as-plain-numbers.md).
+[0040](decisions/0040-kernels-whose-weights-cancel-are-expanded.md).
 """
 
 
