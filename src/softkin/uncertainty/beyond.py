@@ -36,16 +36,12 @@ class Beyond:
         self.radius = train_radius(self.data)
         self.limits = lru_cache(KEPT_LEVELS)(self._limits_at)
 
-    def place(self, commands: Array) -> tuple[NDArray[np.bool_], Array]:
-        """Which commands (n_rows, n_commands) lie in extrapolation, and command norms, both (n_rows,)."""
-        norms = np.asarray(self.norm(commands))
-        return np.asarray(self.surroundings.are_far(commands) | (norms > self.radius)), norms
-
-    def is_outside(self, commands: Array) -> NDArray[np.bool_]:
-        """Which commands (n_rows, n_commands) lie in extrapolation, (n_rows,); as
-        `in_domain_and_extrapolation.is_in_extrapolation`.
+    def place(self, commands: Array, norms: Array | None = None) -> tuple[NDArray[np.bool_], Array]:
+        """Which commands (n_rows, n_commands) lie in extrapolation, and command norms, both (n_rows,); `norms` where
+        they are known.
         """
-        return self.place(commands)[0]
+        norms = np.asarray(self.norm(commands)) if norms is None else norms
+        return np.asarray(self.surroundings.are_far(commands) | (norms > self.radius)), norms
 
     def half_widths(self, commands: Array, levels: Levels) -> Array:
         """Half-widths (n_levels, n_rows, n_coordinates) in mm that commands (n_rows, n_commands) have where they lie in

@@ -153,10 +153,8 @@ class Prepared:
 
     def _place(self, commands: Array) -> tuple[NDArray[np.bool_], Array]:
         """As `Beyond.place`; the norm of one command from plain numbers."""
-        if len(commands) > 1 or "centre" not in self.plain.surroundings:
-            return self.beyond.place(commands)
-        norms = self.plain.norms(commands)
-        return np.asarray(self.beyond.surroundings.are_far(commands) | (norms > self.beyond.radius)), norms
+        is_plain = len(commands) == 1 and "centre" in self.plain.surroundings
+        return self.beyond.place(commands, self.plain.norms(commands) if is_plain else None)
 
     def _placed(self, inputs: Array) -> tuple[Array, Array | None]:
         """Positions and spreads from plain numbers; those of the last row are kept."""

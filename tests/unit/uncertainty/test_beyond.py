@@ -23,4 +23,4 @@ def test_half_widths_are_those_of_intervals_outside() -> None:
 def test_without_shells_there_is_a_norm_all_the_same() -> None:
     beyond = Beyond(small_robot().known, (), None)
     assert not beyond.has_shells
-    assert not beyond.is_outside(small_robot().train.commands).any()
+    assert not beyond.place(small_robot().train.commands)[0].any()

@@ -1,4 +1,4 @@
-"""scikit-learn's robust regression, equal to the bit in a third of the time."""
+"""scikit-learn's robust regression, equal to the bit in two thirds of the time."""
 
 from __future__ import annotations
 
