@@ -17,26 +17,14 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pandas as pd
 
+from benchmarks.peer_dataset import NEW, Dataset
 from benchmarks.peer_models import PEERS
-from benchmarks.utilisation import jobs
-from softkin.core.bounds import read_bounds
-from softkin.core.metrics.interval import covered, winkler_scores
-from softkin.core.metrics.point import mae_mm, rmse_mm
-from softkin.core.samples import EXTRAPOLATION, SUBSETS, TEST, TRAIN, VALIDATION, Array, informative_coordinates
-from softkin.data.audit.gross_rows import gross_rows
-from softkin.data.table import read_subset
-from softkin.uncertainty.choose import deployed_choice
-from softkin.uncertainty.conformal import around, conformal_limits
-from softkin.uncertainty.stored_outputs import predicted_rows
 
 PAGE = Path(__file__).parents[1] / "docs" / "peers.md"
 #: What is installed for the peers; AutoGluon without torch has its trees, neighbours and linear models.
@@ -48,15 +36,16 @@ TITLES = {
     "flaml": "FLAML",
     "autogluon": "AutoGluon tabular",
 }
-LEVEL, NEW = 0.9, (TEST, EXTRAPOLATION)
 HEAD = """# Beside peers
 
 Made by `python -m benchmarks.peers --minutes {minutes:g}`, which `make benchmark-peers` runs with two minutes, from a
 finished run of the default configuration; no number in it is written by hand. Each peer was given {minutes:g} CPU min
 per dataset on one thread, seed {seed}, and the rows of `train` alone; the last fit and what a library takes beyond its
-budget come on top, and AutoGluon stops when its models are fitted. *CPU min* is what was used; softkin's is that of its
-whole run for the robot: every model, preset, interval and figure. Budgets are CPU time: for each second of it
-{ratio:.1f} s passed, as the machine was shared.
+budget come on top, and AutoGluon stops when its models are fitted. *CPU min* is what was used. That of what softkin
+deploys is its whole run for the robot: every model, preset, interval and figure. *Its cheapest models* are softkin with
+the peers' budget: the models whose searches and fits took least, as many as the budget holds, and of their runs the one
+that softkin's own rule chooses by scores on `train`. Budgets are CPU time: for each second of it {ratio:.1f} s passed,
+as the machine was shared.
 
 All get constant intervals at 90 % by the same split conformal step on `validation`, per coordinate. *softkin, `auto`*
 is what softkin deploys in place of that. Errors, coverage and Winkler scores are means over moving coordinates, in mm;
@@ -70,79 +59,6 @@ COLUMNS = (
     "| | CPU min | RMSE test | MAE test | RMSE outside | MAE outside "
     "| coverage test, outside | Winkler test | Winkler outside |"
 )
-
-
-@dataclass(frozen=True)
-class Dataset:
-    """A dataset of a finished run, in the folder of its results."""
-
-    folder: Path
-
-    @cached_property
-    def samples(self) -> dict[str, Any]:
-        """Its rows by subset."""
-        return {subset: read_subset(self.folder / "table.parquet", subset) for subset in SUBSETS}
-
-    @cached_property
-    def title(self) -> str:
-        """Its title, with its rows that are gross errors."""
-        gross = gross_rows(self.samples)
-        n = {subset: int(gross[subset].sum()) for subset in NEW}
-        bad = f"; gross errors: {n[TEST]} rows of test, {n[EXTRAPOLATION]} outside" if any(n.values()) else ""
-        sizes = ", ".join(f"{len(self.samples[subset])} {subset}" for subset in SUBSETS)
-        return f"{json.loads((self.folder / 'dataset.json').read_text())['dataset']} ({sizes}{bad})"
-
-    def given(self) -> dict[str, Array]:
-        """What a peer is given: moving coordinates of train, and all commands that it is asked for."""
-        train = self.samples[TRAIN]
-        asked = [self.samples[subset].commands for subset in (VALIDATION, *NEW)]
-        return {"commands": train.commands, "positions": train.positions[:, self.moving], "asked": np.vstack(asked)}
-
-    @cached_property
-    def moving(self) -> Any:
-        """Mask (n_coordinates,) of the coordinates that move on train."""
-        return informative_coordinates(self.samples[TRAIN].positions)
-
-    def scores(self, predicted: Array) -> dict[str, float]:
-        """Of predictions (n_rows, n_moving) of validation, test and extrapolation, one below the other."""
-        ends = np.cumsum([len(self.samples[subset]) for subset in (VALIDATION, TEST)])
-        parts = dict(zip((VALIDATION, *NEW), np.split(predicted, ends), strict=True))
-        truth = {subset: self.samples[subset].positions[:, self.moving] for subset in parts}
-        half = conformal_limits(np.abs(truth[VALIDATION] - parts[VALIDATION]), [LEVEL])
-        found: dict[str, float] = {}
-        for subset in NEW:
-            bounds = around(parts[subset], half[0])
-            found |= {f"{subset}_rmse": rmse_mm(truth[subset], parts[subset])}
-            found |= {f"{subset}_mae": mae_mm(truth[subset], parts[subset])}
-            found |= _of_bounds(subset, truth[subset], bounds)
-        return found
-
-    def softkin(self) -> Iterator[dict[str, Any]]:
-        """What softkin deployed, by the same split conformal step and by its own intervals."""
-        choice = deployed_choice(self.folder / "interval_choice.csv")
-        assert choice is not None
-        path = self.folder / choice["model"] / choice["preset"] / "predictions.parquet"
-        predicted = predicted_rows(pd.read_parquet(path), (VALIDATION, *NEW))[:, self.moving]
-        scores = self.scores(predicted)
-        used = {"cpu_seconds": cpu_of(self.folder.parent, self.folder.name)}
-        yield {"peer": f"softkin: {choice['model']}, {choice['preset']}"} | used | scores
-        own = pd.read_parquet(self.folder / "intervals" / f"{choice['outside']}.parquet")
-        own = own[(own["model"] == choice["model"]) & (own["preset"] == choice["preset"])]
-        for subset in NEW:
-            bounds = read_bounds(own, subset, [LEVEL])[0][:, self.moving]
-            scores |= _of_bounds(subset, self.samples[subset].positions[:, self.moving], bounds)
-        yield {"peer": f"softkin, `{choice['outside']}`"} | used | scores
-
-
-def _of_bounds(subset: str, truth: Array, bounds: Array) -> dict[str, float]:
-    winkler = winkler_scores(truth, bounds, LEVEL)
-    return {f"{subset}_coverage": float(covered(truth, bounds).mean()), f"{subset}_winkler": float(winkler.mean())}
-
-
-def cpu_of(results: Path, dataset: str) -> float:
-    """CPU seconds of all jobs of a dataset, as each read them off the system's clock."""
-    run = jobs(results)
-    return float(run.loc[[dataset in Path(job).parts for job in run["job"]], "cpu_s"].sum())
 
 
 def environment(folder: Path) -> Path:
@@ -228,7 +144,7 @@ def main() -> None:
     of_datasets, missing = {}, []
     for name in options.datasets:
         dataset = Dataset(options.results / name)
-        rows = list(dataset.softkin())
+        rows = [*dataset.softkin(), *filter(None, [dataset.cheapest(60 * options.minutes)])]
         for peer in options.peers:
             is_there = (folder / f"{name}.{peer}.{options.minutes:g}.{options.seed}.json").is_file()
             if is_there or not options.page:
