@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import takewhile
 from pathlib import Path
 
 import numpy as np
@@ -13,8 +14,8 @@ from softkin.core.escaping import one_line
 
 #: Numbers that differ by less, relative to their size, are the same.
 TOLERANCE = 1e-9
-#: Characters of a line that are shown.
-SHOWN = 100
+#: Characters of a line or cell that are shown, and of these at most so many before the first that differs.
+SHOWN, BEFORE = 100, 30
 
 
 def differences(
@@ -41,7 +42,7 @@ def differences(
         places = np.flatnonzero(differ(stored[name], made[name], tolerance))
         if len(places):
             row = int(places[0])
-            old, new = stored[name].iloc[row], made[name].iloc[row]
+            old, new = _where_they_part(str(stored[name].iloc[row]), str(made[name].iloc[row]))
             return [f"{path}, row {row + 1}, column {name}: {old} stands there, and its sources give {new}"]
     return []
 
@@ -65,6 +66,19 @@ def other_line(stored: Path, made: Path) -> str:
     old, new = ([*text, *[""] * (most - len(text))] for text in lines)
     for number, pair in enumerate(zip(old, new, strict=True), start=1):
         if pair[0] != pair[1]:
-            stands, given = (one_line(line)[:SHOWN] for line in pair)
+            stands, given = _where_they_part(*pair)
             return f"{stored}, line {number}: '{stands}' stands there, and its sources give '{given}'"
     return f"{stored} ends otherwise than its sources give"
+
+
+def _where_they_part(old: str, new: str) -> tuple[str, str]:
+    """Two texts that differ, each in one line; of long ones the characters around the first that differs."""
+    old, new = one_line(old), one_line(new)
+    if max(len(old), len(new)) <= SHOWN:
+        return old, new
+    same = sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(old, new, strict=False)))
+    start = max(0, same - BEFORE)
+    parts = [text[start : start + SHOWN] for text in (old, new)]
+    ends = ["..." if len(text) > start + SHOWN else "" for text in (old, new)]
+    before = "..." if start else ""
+    return before + parts[0] + ends[0], before + parts[1] + ends[1]

@@ -48,3 +48,17 @@ def test_the_line_of_a_text_that_differs_is_named(tmp_path: Path) -> None:
     assert other_line(old, new) == f"{old} ends otherwise than its sources give"
     new.write_bytes(b"\xff\x00")
     assert other_line(old, new) == f"{old} is not what its sources give"
+
+
+def test_long_texts_are_shown_where_they_part(tmp_path: Path) -> None:
+    path, made = tmp_path / "t.csv", tmp_path / "made.md"
+    same = "the same words " * 20
+    write_csv(path, FRAME.assign(note=[None, f"{same}old{same}"]))
+    (found,) = differences(path, FRAME.assign(note=[None, f"{same}new{same}"]))
+    assert "words old" in found
+    assert "words new" in found
+    assert len(found) < len(str(path)) + 300
+    path.write_text(f"{same}old")
+    made.write_text(f"{same}new and more")
+    expected = f"'...{same[-30:]}old' stands there, and its sources give '...{same[-30:]}new and more'"
+    assert other_line(path, made) == f"{path}, line 1: {expected}"
