@@ -11,10 +11,11 @@ from typing import Any
 import pytest
 import yaml
 
+from softkin.core.schema_files import read_schema
 from tests.conftest import HOUSE
 
 SOURCES = sorted((HOUSE / "src" / "softkin").rglob("*.py"))
-SCHEMA = yaml.safe_load((HOUSE / "workflow" / "schemas" / "config.schema.yaml").read_text(encoding="utf-8"))
+SCHEMA = read_schema(HOUSE / "workflow" / "schemas" / "config.schema.yaml")
 #: What follows a section and a dot without being a key: suffixes of files.
 SUFFIXES = {"py", "smk", "yaml", "csv", "json", "md"}
 #: A command to type may follow a colon, and no key stands before it.

@@ -15,6 +15,7 @@ from softkin.core.configuration import check_configuration
 from softkin.core.errors import ConfigError
 from softkin.core.rotations import KINDS
 from softkin.core.runs import PRESETS
+from softkin.core.schema_files import read_schema
 from softkin.data.readers import READERS
 from softkin.data.readers.complete_rows import MISSING
 from softkin.data.readers.joined_tables import JOINS
@@ -27,7 +28,7 @@ from softkin.uncertainty.intervals.spec import REGIMES
 from tests.conftest import HOUSE
 
 PATH = HOUSE / "workflow" / "schemas" / "config.schema.yaml"
-SCHEMA = yaml.safe_load(PATH.read_text())
+SCHEMA = read_schema(PATH)
 #: Each key whose values the schema lists: what the code knows of them.
 LISTED = {
     "presets": PRESETS,

@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import yaml
 from jsonschema import Draft202012Validator, TypeChecker
 from jsonschema.exceptions import ValidationError
 from jsonschema.validators import extend
@@ -15,6 +14,7 @@ from jsonschema.validators import extend
 from softkin.core.addresses import problems_of_mirror, problems_of_store
 from softkin.core.errors import ConfigError
 from softkin.core.plain_values import problems_of_values
+from softkin.core.schema_files import read_schema
 
 #: Largest seed that numpy and scikit-learn take, less one.
 MAX_SEED = 2**32 - 2
@@ -51,7 +51,7 @@ def check_configuration(
     """
     problems = list(problems_of_values(config))
     if not problems:
-        validator = _Validator(yaml.safe_load(Path(schema).read_text(encoding="utf-8")))
+        validator = _Validator(read_schema(schema))
         problems = [line for error in validator.iter_errors(config) for line in _explain(error)]
     if not problems:
         problems = list(_unknown_names(config, registries))

@@ -9,6 +9,7 @@ import yaml
 
 from softkin.core.configuration import check_configuration
 from softkin.core.errors import ConfigError
+from softkin.core.schema_files import read_schema
 from softkin.data.readers import READERS
 from softkin.data.standins import STANDINS
 from softkin.models import MODELS
@@ -150,4 +151,4 @@ def test_the_schema_is_strict_and_described_throughout() -> None:
         for key, value in node.items():
             walk(value, f"{path}.{key}")
 
-    walk(yaml.safe_load(SCHEMA.read_text()), "schema")
+    walk(read_schema(SCHEMA), "schema")
