@@ -141,7 +141,9 @@ def test_no_model_is_named_outside_models() -> None:
 
 def blocks() -> dict[str, str]:
     """Name -> text of each rule."""
-    texts = [re.split(r"^ *rule (\w+):", path.read_text(), flags=re.MULTILINE)[1:] for path in RULES]
+    # A rule that is made for each group of datasets has a name that is made, see workflow/rules/groups.smk.
+    named = re.compile(r'^ *rule(?: (?=\w+:)|:\s+name:\s+name_of\(")(\w+)', re.MULTILINE)
+    texts = [named.split(path.read_text())[1:] for path in RULES]
     return {name: block for text in texts for name, block in zip(text[::2], text[1::2], strict=True)}
 
 

@@ -60,6 +60,10 @@ MISSPELT: dict[str, dict[str, Any]] = {
     "datasets": {"datasets": ["fingers"]},
     "sources.finger.format": {"sources": {"finger": {"format": "knn_json"}}},
     "sources.finger.standin.robot": {"sources": {"finger": {"standin": {"robot": "finger", "seed": 1}}}},
+    "sources.finger.models": {"sources": {"finger": {"models": ["gpp"]}}},
+    "sources.finger.quantile_models": {"sources": {"finger": {"quantile_models": ["gbb"]}}},
+    "sources.finger.interval_methods": {"sources": {"finger": {"interval_methods": ["scp"]}}},
+    "sources.finger.presets": {"sources": {"finger": {"presets": ["papers"]}}},
     "sources.finger.paper_params": {"sources": {"finger": {"paper_params": {"lrr": {}}}}},
 }
 

@@ -17,7 +17,7 @@ CONFIG = yaml.safe_load((HOUSE / "config" / "config.yaml").read_text())
 RULES = {
     name
     for path in (HOUSE / "workflow" / "rules").glob("*.smk")
-    for name in re.findall(r"^ *rule (\w+):", path.read_text(), re.MULTILINE)
+    for name in re.findall(r'^ *rule(?: (?=\w+:)|:\s+name:\s+name_of\(")(\w+)', path.read_text(), re.MULTILINE)
 }
 
 #: Its jobs are of datasets whose entry names an orientation; where nothing was timed the view takes the median of all.

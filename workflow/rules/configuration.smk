@@ -9,6 +9,7 @@ from softkin.cli.configuration import check
 from softkin.core.config_files import check_config_files
 from softkin.core.credentials import hide_credentials, with_credentials
 from softkin.core.errors import SoftkinError
+from softkin.core.narrowing import of_data
 from softkin.core.urls import without_credentials
 from softkin.data import own_files
 from softkin.data.readers import READERS
@@ -102,10 +103,10 @@ SOFTWARE = "../envs/softkin.yaml"
 
 
 def source(wildcards):
-    """The dataset's entry in config/datasets.yaml."""
+    """What the dataset's entry in config/datasets.yaml says of its data."""
     if wildcards.dataset not in config["sources"]:
         raise WorkflowError(f"{wildcards.dataset} is no entry of config/datasets.yaml")
-    return config["sources"][wildcards.dataset]
+    return of_data(config["sources"][wildcards.dataset])
 
 
 def overrides(wildcards):

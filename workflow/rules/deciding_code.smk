@@ -65,12 +65,9 @@ def quantile_study_code(wildcards):
     )
 
 
-def interval_modules():
-    """What defines the configured interval methods."""
-    return [
-        module_of(INTERVAL_METHODS[name].intervals)
-        for name in config["interval_methods"]
-    ]
+def interval_modules(methods):
+    """What defines these interval methods."""
+    return [module_of(INTERVAL_METHODS[name].intervals) for name in methods]
 
 
 def region_modules():

@@ -1,8 +1,8 @@
-# What one dataset gets of the configured models and methods: all of them, but in a run that makes tables of what is there
-# after a job has failed.
+# What one dataset gets of the configured models, presets and methods: all of them, what its entry narrows them to, and less
+# in a run that makes tables of what is there after a job has failed.
 import json
 import os
-from functools import cache
+from functools import cache, partial
 
 from softkin.cli.partial_tables import PARTIAL
 
@@ -12,40 +12,47 @@ LEFT_OUT = json.loads(os.environ.get(PARTIAL, "{}"))
 
 
 def configured(key, dataset):
-    """The models, interval methods, ... of a dataset: those of this key of the configuration that are not left out."""
+    """The models, interval methods, ... of a dataset: those of this key that are its own and not left out."""
+    names = narrowed(config, key, dataset)
     out = LEFT_OUT.get(dataset, {}).get(key, ())
-    return [name for name in config[key] if name not in out] if out else config[key]
+    return [name for name in names if name not in out] if out else names
 
 
 @cache
 def runs_of(models, presets, ensembles=()):
-    """[model, preset] of each run of these, ensembles by their own presets; one list for all jobs, which are thousands."""
+    """[model, preset] of each run of these, ensembles by searched presets; one list for all jobs, which are thousands."""
     runs = [[model, preset] for model in models for preset in presets]
-    return runs + [[name, preset] for name in ensembles for preset in SEARCHED_PRESETS]
+    return runs + [[name, preset] for name in ensembles for preset in searched(presets)]
+
+
+def searched_presets(dataset):
+    """The presets of a dataset whose parameters come from a study."""
+    return searched(configured("presets", dataset))
 
 
 def ensembles_of(dataset):
     """The ensembles of a dataset: of searched runs, where there are some."""
-    return configured("ensembles", dataset) * bool(SEARCHED_PRESETS)
+    return configured("ensembles", dataset) * bool(searched_presets(dataset))
 
 
 def every_run(wildcards):
     """[model, preset] of each run of a dataset, ensembles last."""
     models = configured("models", wildcards.dataset)
+    presets = configured("presets", wildcards.dataset)
     ensembles = ensembles_of(wildcards.dataset)
-    return runs_of(tuple(models), tuple(config["presets"]), tuple(ensembles))
+    return runs_of(tuple(models), tuple(presets), tuple(ensembles))
 
 
 def pool_runs(wildcards):
     """[model, preset] of each run of a dataset whose parameters come from a study: they may be members of ensembles."""
     models = configured("models", wildcards.dataset)
-    return runs_of(tuple(models), tuple(SEARCHED_PRESETS))
+    return runs_of(tuple(models), tuple(searched_presets(wildcards.dataset)))
 
 
 def searched_of(dataset):
     """[model, preset] of each run of a dataset that is searched for on train, ensembles last."""
     models = configured("models", dataset) + ensembles_of(dataset)
-    return runs_of(tuple(models), tuple(SEARCHED_PRESETS))
+    return runs_of(tuple(models), tuple(searched_presets(dataset)))
 
 
 def searched_runs(wildcards):
@@ -56,7 +63,9 @@ def searched_runs(wildcards):
 def tuned_runs(wildcards):
     """[model, preset] of each tuned run of a dataset."""
     models = configured("models", wildcards.dataset) + ensembles_of(wildcards.dataset)
-    presets = [preset for preset in config["presets"] if preset == TUNED]
+    presets = [
+        name for name in configured("presets", wildcards.dataset) if name == TUNED
+    ]
     return runs_of(tuple(models), tuple(presets))
 
 
@@ -92,15 +101,15 @@ def orientation_scores(wildcards):
 
 
 def compared_models(wildcards):
-    """Those of them that a dataset has."""
+    """The models of a dataset that are fitted in either target space, so that the spaces can be compared."""
     models = configured("models", wildcards.dataset)
-    return [name for name in COMPARED if name in models]
+    return models * is_compared(group_of(wildcards.dataset))
 
 
 def quantile_runs(wildcards):
     """[quantile regressor, preset] of each run of a dataset."""
     names = configured("quantile_models", wildcards.dataset)
-    return runs_of(tuple(names), tuple(QUANTILE_PRESETS))
+    return runs_of(tuple(names), tuple(has_quantiles(group_of(wildcards.dataset))))
 
 
 def quantile_manifests(wildcards):
@@ -112,12 +121,31 @@ def quantile_manifests(wildcards):
     ]
 
 
+def refit_file(wildcards, kind):
+    """The file of a dataset that the rule `refit` makes of this kind, where a method needs it."""
+    files = refit_files(group_of(wildcards.dataset))[kind]
+    return expand(files, dataset=wildcards.dataset)
+
+
+def study_parts(wildcards):
+    """Of which rows of train the studies stored held-out errors, where a method of a dataset needs them."""
+    methods = group_of(wildcards.dataset).interval_methods
+    if not asks_for("needs_held_out", methods):
+        return None
+    names = ("n_folds", "max_rows", "max_markers")
+    return {name: config["tuning"][name] for name in names}
+
+
 # What a run that makes tables of what is there must not declare: it may have fewer intervals of a dataset, and the
 # calibrated model of an earlier run stays.
-INTERVALS = expand(
-    "results/{{dataset}}/intervals/{method}.parquet",
-    method=config["interval_methods"] * (PARTIAL not in os.environ),
-)
+def of_methods(group):
+    """The files of a group's intervals."""
+    return expand(
+        "results/{{dataset}}/intervals/{method}.parquet",
+        method=group.interval_methods * (PARTIAL not in os.environ),
+    )
+
+
 CALIBRATED_MODEL = ["results/{dataset}/calibrated_model.joblib"] * (
     PARTIAL not in os.environ
 )
@@ -125,8 +153,8 @@ CALIBRATED_MODEL = ["results/{dataset}/calibrated_model.joblib"] * (
 STORED_OUTPUTS = {
     "models": model_manifests,
     "quantile_models": quantile_manifests,
-    "refits": REFITS,
-    "shells": SHELLS,
+    "refits": partial(refit_file, kind="refits"),
+    "shells": partial(refit_file, kind="shells"),
 }
 
 
@@ -148,7 +176,7 @@ def interval_params():
         "quantile_runs": quantile_runs,
         "searched": searched_runs,
         "pool": pool_runs,
-        "study_parts": STUDY_PARTS,
+        "study_parts": study_parts,
         "confidence_levels": config["confidence_levels"],
         "seed": config["seed"],
     }

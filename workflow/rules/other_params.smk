@@ -4,25 +4,33 @@ from snakemake.iocontainers import InputFiles, OutputFiles, Wildcards
 
 from softkin.cli.redo import redo_changed
 
-# What a wildcard may be in this run: there may be results of others.
-NAMES = {
-    "dataset": config["datasets"],
-    "model": config["models"],
-    "ensemble": config["ensembles"],
-    "quantile_model": config["quantile_models"],
+# The keys of the configuration that say what a wildcard may be: there may be results of others.
+KEYS = {
+    "model": "models",
+    "ensemble": "ensembles",
+    "quantile_model": "quantile_models",
 }
+
+
+def is_of_this_run(wildcards):
+    """Whether this run has jobs of this dataset, and of this model."""
+    dataset = wildcards.get("dataset")
+    return dataset in (None, *config["datasets"]) and all(
+        name in configured(KEYS[key], dataset)
+        for key, name in wildcards.items()
+        if key != "dataset"
+    )
 
 
 def params_of(words):
     """The params of the job of these words, its rule and its wildcards; None where this run has no such job."""
     name, *names = words.split()
-    if not workflow.is_rule(name):
+    rule_name = name_of(name, group_of(names[0])) if name in GROUPED else name
+    if not workflow.is_rule(rule_name):
         return None
-    defined = workflow.get_rule(name)
+    defined = workflow.get_rule(rule_name)
     found = defined.log[0].match(f"{Path('results', 'logs', name, *names)}.log")
-    if found is None or any(
-        of not in NAMES[key] for key, of in found.groupdict().items()
-    ):
+    if found is None or not is_of_this_run(found.groupdict()):
         return None
     wildcards = Wildcards(fromdict=found.groupdict())
     params, _ = defined.expand_params(wildcards, InputFiles(), OutputFiles(), job=None)

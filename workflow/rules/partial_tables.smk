@@ -11,7 +11,7 @@ def undone_jobs():
     failed = workflow.scheduler.failed
     for job in workflow.dag.needrun_jobs():
         if not job.is_norun:
-            name, wildcards = job.rule.name, dict(job.wildcards_dict)
+            name, wildcards = stage_of(job.rule.name), dict(job.wildcards_dict)
             dataset = wildcards.pop("dataset", "")
             parts = [(OF_ONE[name], of) for of in wildcards.values() if name in OF_ONE]
             if job in failed and job.log:

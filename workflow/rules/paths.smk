@@ -3,6 +3,10 @@ from softkin.core.manifest import MANIFEST
 from softkin.core.runs import OUTER, PAPER, PRESETS, SEARCHED, TUNED
 from softkin.models.paper_groups import NETWORK, ONE_OF_EACH_KIND
 
+
+include: "groups.smk"
+
+
 # The datasets that know when their rows were recorded.
 RECORDED = [name for name in config["datasets"] if is_recorded(config["sources"][name])]
 # The datasets whose entry names the orientation of the tip.
@@ -14,8 +18,12 @@ LEARNING_MODELS = [name for name in ONE_OF_EACH_KIND if name in config["models"]
 LEARNING = [
     name
     for name in config["datasets"]
-    if "urls" in config["sources"][name] and name not in RECORDED
-] * (NETWORK in LEARNING_MODELS)
+    if "urls" in config["sources"][name]
+    and name not in RECORDED
+    and NETWORK in narrowed(config, "models", name)
+]
+# The presets that some dataset has.
+ALL_PRESETS = {preset for group in GROUPS if group.datasets for preset in group.presets}
 HEADLINE = "results/tables/headline.txt"
 REPORT = "results/report.html"
 # To be pasted into a paper.
@@ -35,92 +43,53 @@ TABLES = [
     "target_spaces.csv",
     "published_comparison.csv",
     "published_intervals.csv",
-    *(["published_columns.csv"] if TUNED in config["presets"] else []),
+    *(["published_columns.csv"] if TUNED in ALL_PRESETS else []),
     "left_out.csv",
     "claims.csv",
     *(["recorded.csv"] if RECORDED else []),
     *(["learning_curve.csv"] if LEARNING else []),
     *(["orientation.csv"] if ORIENTED else []),
-    *(
-        ["selection.csv", "searched_runs.csv"]
-        if set(SEARCHED) & set(config["presets"])
-        else []
-    ),
+    *(["selection.csv", "searched_runs.csv"] if searched(ALL_PRESETS) else []),
 ]
 
 
-# The presets whose parameters come from a study.
-SEARCHED_PRESETS = [preset for preset in config["presets"] if preset in SEARCHED]
-
-
-# Each file is held against these, and there are hundreds of a dataset: a list of a thousand names would be read each time.
 wildcard_constraints:
-    dataset="(?!(?:tables|logs|benchmarks|studies|studies_before_refit|manifest|schedules|peers)/)[a-z][a-z0-9_]*",
+    dataset=DATASET,
     model="|".join(MODELS),
     ensemble="|".join(ENSEMBLES),
     preset="|".join(PRESETS),
     quantile_model="|".join(QUANTILE_MODELS),
 
 
-def of_presets(name, presets=tuple(config["presets"])):
+def of_presets(name, presets):
     """One file of a model for each of these presets."""
     return [f"results/{{dataset}}/{{model}}/{preset}/{name}" for preset in presets]
 
 
-def of_searched(name):
-    """One file of a model for each preset whose parameters come from a study."""
-    return of_presets(name, SEARCHED_PRESETS)
-
-
-def of_ensemble(name):
-    """One file of an ensemble for each preset that it has, those whose parameters come from a study."""
+def of_ensemble(name, presets):
+    """One file of an ensemble for each of these presets that it has, those whose parameters come from a study."""
     return [
         f"results/{{dataset}}/{{ensemble}}/{preset}/{name}"
-        for preset in SEARCHED_PRESETS
+        for preset in searched(presets)
     ]
 
 
-def asks_for(trait):
-    """Whether the calibration data of a configured interval method have this trait."""
-    methods = [INTERVAL_METHODS[name] for name in config["interval_methods"]]
-    return any(getattr(method.calibrated_on, trait) for method in methods)
+def of_quantile_presets(name, presets):
+    """One file of a quantile regressor for each of these presets."""
+    return [
+        f"results/{{dataset}}/quantiles/{{quantile_model}}/{preset}/{name}"
+        for preset in presets
+    ]
 
 
-# The models that are fitted in either target space, so that the spaces can be compared.
-COMPARED = config["models"] * (
-    OUTER in config["presets"] and len(config["target_spaces"]) > 1
-)
 # The models that CV+ and jackknife+-after-bootstrap refit.
 CHEAP_MODELS = [name for name in config["models"] if MODELS[name].is_cheap]
 # The models that a few gross errors cannot move.
 ROBUST_MODELS = [name for name in config["models"] if MODELS[name].is_robust]
-# The presets and runs of quantile regressors, where a configured method needs them.
-QUANTILE_PRESETS = [
-    preset for preset in config["presets"] if preset in (PAPER, TUNED)
-] * asks_for("needs_quantiles")
-# The refits that a configured method needs; none of the others are made.
-REFITS = ["results/{dataset}/refits.npz"] * asks_for("needs_refits")
-# Of which rows of train the studies stored held-out errors, where a configured method needs them.
-STUDY_PARTS = (
-    {key: config["tuning"][key] for key in ("n_folds", "max_rows", "max_markers")}
-    if asks_for("needs_held_out")
-    else None
-)
-SHELLS = ["results/{dataset}/shells.npz"] * asks_for("needs_shells")
-OTHER_SPACES = ["results/{dataset}/other_spaces.parquet"] * bool(COMPARED)
 INTERVAL_MANIFEST = f"results/{{dataset}}/intervals/{MANIFEST}"
 
 
 include: "of_dataset.smk"
-
-
-def of_quantile_presets(name, presets=(PAPER, TUNED)):
-    """One file of a quantile regressor for each of these presets that it gets."""
-    return [
-        f"results/{{dataset}}/quantiles/{{quantile_model}}/{preset}/{name}"
-        for preset in QUANTILE_PRESETS
-        if preset in presets
-    ]
 
 
 def tuning(*keys):

@@ -1,21 +1,25 @@
-if REFITS or SHELLS or COMPARED:
+for group in GROUPS:
+    if not any(refit_files(group).values()):
+        continue
 
     # in:  the table of a dataset (rows of train are fitted on, commands of test and extrapolation predicted), with what
     #      each model was fitted, and the best parameters of each search
     # out: what models predict when they are refitted: on folds and bootstrap samples of train; on inner cores of train,
     #      of the shells around them; in the target space that their study has not chosen
-    rule refit:
+    rule:
+        name:
+            name_of("refit", group)
         input:
             table="results/{dataset}/table.parquet",
             models=model_manifests,
         output:
-            refits=REFITS,
-            shells=SHELLS,
-            spaces=OTHER_SPACES,
+            **refit_files(group),
         log:
             "results/logs/refit/{dataset}.log",
         benchmark:
             "results/benchmarks/refit/{dataset}.tsv"
+        wildcard_constraints:
+            dataset=datasets_of(group),
         priority: 10
         conda:
             SOFTWARE

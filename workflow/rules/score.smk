@@ -7,7 +7,7 @@ rule score:
     input:
         **STORED_OUTPUTS,
         table="results/{dataset}/table.parquet",
-        other_spaces=OTHER_SPACES,
+        other_spaces=partial(refit_file, kind="spaces"),
         intervals=INTERVAL_MANIFEST,
         choice="results/{dataset}/interval_choice.csv",
         calibrated_model=CALIBRATED_MODEL,

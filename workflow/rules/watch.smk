@@ -20,9 +20,9 @@ def jobs_to_do():
     timings = Timings.read(TIMINGS)
     jobs = {
         number: Job(
-            job.rule.name,
+            stage_of(job.rule.name),
             dict(job.wildcards_dict),
-            timings.seconds(job.rule.name, job.wildcards_dict),
+            timings.seconds(stage_of(job.rule.name), job.wildcards_dict),
             Path(job.log[0]) if job.log else None,
             measured_seconds(job.benchmark),
             [
@@ -34,7 +34,7 @@ def jobs_to_do():
         )
         for job, number in numbers.items()
     }
-    return in_order(jobs, [rule.name for rule in workflow.rules])
+    return in_order(jobs, dict.fromkeys(stage_of(rule.name) for rule in workflow.rules))
 
 
 def jobs_at_a_time():

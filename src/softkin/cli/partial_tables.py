@@ -14,6 +14,7 @@ from typing import Any
 
 from softkin.core.failed_parts import PARTS
 from softkin.core.files import write_json
+from softkin.core.narrowing import groups, name_of, narrowed_configuration
 
 #: What is made again of what is there. None of them writes to the store.
 OF_A_DATASET = (
@@ -74,7 +75,11 @@ def plan(
     for dataset in config["datasets"]:
         jobs = [job for job in undone if job.dataset == dataset and job.rule not in AFTER_THE_TABLES]
         new = _without(jobs)
-        out = None if new is None else _together(config, left_out.get(dataset, {}), new, on_quantiles)
+        out = (
+            None
+            if new is None
+            else _together(narrowed_configuration(config, dataset), left_out.get(dataset, {}), new, on_quantiles)
+        )
         if new is None or out is None:
             words.append(_with_jobs(dataset, jobs))
             continue
@@ -135,6 +140,7 @@ def run_partial(partial: Partial, config: Mapping[str, Any], *, command: Sequenc
     caution = " ".join(filter(None, (partial.missing, config.get("caution"))))
     file = Path(".snakemake") / "softkin_partial.json"
     write_json(file, {**config, "datasets": partial.datasets, "caution": caution})
-    options = ["--cores", str(cores), "--nolock", "--configfile", str(file.resolve()), "--allowed-rules", *RULES]
+    options = ["--cores", str(cores), "--nolock", "--configfile", str(file.resolve())]
+    options += ["--allowed-rules", *(name_of(rule, group) for group in groups(config) for rule in RULES)]
     environment = os.environ | {PARTIAL: json.dumps(partial.left_out)}
     return subprocess.run([*command, *options, "--", report], env=environment, check=False).returncode

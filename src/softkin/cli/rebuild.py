@@ -14,6 +14,7 @@ from softkin.core.errors import ResultError
 from softkin.core.files import read_json
 from softkin.core.job_params import other_params
 from softkin.core.job_records import FOLDER, read_record
+from softkin.core.narrowing import narrowed
 from softkin.core.runs import SEARCHED
 from softkin.models import MODELS
 from softkin.models.ensembles import ENSEMBLES
@@ -88,14 +89,12 @@ def _record(results: Path) -> Path:
 
 def _searched(results: Path, config: Mapping[str, Any]) -> dict[str, list[list[str]]]:
     """[model, preset] of the runs of each dataset that a study stands behind, ensembles last."""
-    presets = [preset for preset in config["presets"] if preset in SEARCHED]
-    names = [*config["models"], *config.get("ensembles", [])]
     return {
         dataset: [
             [name, preset]
-            for name in names
-            for preset in presets
-            if (results / dataset / name / preset / "parameters.json").is_file()
+            for name in [*narrowed(config, "models", dataset), *config.get("ensembles", [])]
+            for preset in narrowed(config, "presets", dataset)
+            if preset in SEARCHED and (results / dataset / name / preset / "parameters.json").is_file()
         ]
         for dataset in config["datasets"]
     }

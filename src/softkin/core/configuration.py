@@ -13,6 +13,7 @@ from jsonschema.validators import extend
 
 from softkin.core.addresses import problems_of_mirror, problems_of_store
 from softkin.core.errors import ConfigError
+from softkin.core.narrowing import problems_of_narrowing
 from softkin.core.plain_values import problems_of_values
 from softkin.core.schema_files import read_schema
 
@@ -55,6 +56,8 @@ def check_configuration(
         problems = [line for error in validator.iter_errors(config) for line in _explain(error)]
     if not problems:
         problems = list(_unknown_names(config, registries))
+    if not problems:
+        problems = list(problems_of_narrowing(config))
     if not problems:
         found = [_problems_together(config), *(check(config) for check in checks)]
         problems = [line for lines in found for line in lines]
@@ -116,6 +119,12 @@ def _named(
         yield f"{key}.format", "format", source["format"], registries["formats"]
         if "standin" in source:
             yield f"{key}.standin.robot", "simulated robot", source["standin"]["robot"], registries["standins"]
+        for own, kind in (
+            ("models", "model"),
+            ("quantile_models", "quantile regressor"),
+            ("interval_methods", "interval method"),
+        ):
+            yield from ((f"{key}.{own}", kind, name, registries[own]) for name in source.get(own, ()))
         for model in source.get("paper_params", {}):
             yield f"{key}.paper_params", "model", model, registries["models"]
 

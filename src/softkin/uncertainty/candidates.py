@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from softkin.core.narrowing import NARROWED, narrowed_configuration
 from softkin.core.runs import PAPER, SEARCHED, TUNED
 from softkin.models.spec import PointModel
 from softkin.uncertainty.calibration_data import PredictiveCalibration
@@ -14,7 +15,20 @@ from softkin.uncertainty.intervals.spec import MARGINAL, IntervalMethod
 def problems_of_methods(
     config: Mapping[str, Any], methods: Mapping[str, IntervalMethod[Any]], models: Mapping[str, PointModel]
 ) -> Iterator[str]:
-    """Why no calibrated model could be made of the configured `interval_methods`, and methods that have no data."""
+    """Why no calibrated model could be made of the configured `interval_methods`, and methods that have no data; for
+    each dataset whose entry narrows what it gets, the same of that.
+    """
+    yield from _problems("interval_methods", config, methods, models)
+    for dataset in config["datasets"]:
+        if set(NARROWED) & set(config["sources"][dataset]):
+            own = narrowed_configuration(config, dataset)
+            yield from _problems(f"sources.{dataset}.interval_methods", own, methods, models)
+
+
+def _problems(
+    key: str, config: Mapping[str, Any], methods: Mapping[str, IntervalMethod[Any]], models: Mapping[str, PointModel]
+) -> Iterator[str]:
+    """Those of one configuration, at the `key` of its methods."""
     configured = [methods[name] for name in config["interval_methods"]]
     is_searched = bool(set(SEARCHED) & set(config["presets"]))
     ensembles = config["ensembles"] if is_searched else []
@@ -22,13 +36,13 @@ def problems_of_methods(
     usable = [method for method in configured if is_searched or not method.calibrated_on.needs_held_out]
     if not any(_can_be_deployed(method, pool) for method in usable):
         yield (
-            f"interval_methods: of {', '.join(config['interval_methods'])} none is calibrated around every model, so "
+            f"{key}: of {', '.join(config['interval_methods'])} none is calibrated around every model, so "
             "no calibrated model can be made; add scp_mapie"
         )
     quantile_methods = [method.name for method in configured if method.calibrated_on.needs_quantiles]
     if quantile_methods and not {PAPER, TUNED} & set(config["presets"]):
         yield (
-            f"interval_methods: {', '.join(quantile_methods)} need quantile regressors, which have no preset "
+            f"{key}: {', '.join(quantile_methods)} need quantile regressors, which have no preset "
             f"{', '.join(config['presets'])}; add paper or tuned to presets, or leave them out"
         )
 

@@ -22,6 +22,8 @@ CONFIG: dict[str, Any] = {
     "quantile_models": ["gb"],
     "interval_methods": ["qr", "scp_mapie", "auto"],
     "regions": ["joint_box"],
+    "presets": ["paper", "tuned"],
+    "sources": {"arm": {}, "finger": {}, "trunk": {}},
 }
 GP = Undone("fit_model", "finger", "fit_model gp", failed=True, parts=[("models", "gp")])
 MEAN = Undone("fit_ensemble", "finger", "fit_ensemble ensemble", failed=False, parts=[("ensembles", "ensemble")])
@@ -130,7 +132,7 @@ def test_they_are_asked_for_with_a_caution_and_what_is_left_out(
         return subprocess.CompletedProcess(command, 3)
 
     monkeypatch.setattr(subprocess, "run", run)
-    config = {"datasets": CONFIG["datasets"], "caution": "Few trials.", "seed": 1}
+    config = CONFIG | {"caution": "Few trials.", "seed": 1, "sources": {"arm": {"presets": ["tuned"]}}}
     partial = Partial(["arm"], {"arm": {"models": ["gp"]}}, "Incomplete.")
     assert run_partial(partial, config, command=["snakemake"], cores=2, report="results/report.html") == 3
     ((command, environment, _),) = called
@@ -140,4 +142,5 @@ def test_they_are_asked_for_with_a_caution_and_what_is_left_out(
     assert json.loads(environment[PARTIAL]) == {"arm": {"models": ["gp"]}}
     assert PARTIAL not in os.environ
     given = read_json(command[command.index("--configfile") + 1])
-    assert given == {"datasets": ["arm"], "caution": "Incomplete. Few trials.", "seed": 1}
+    assert given == config | {"datasets": ["arm"], "caution": "Incomplete. Few trials."}
+    assert {"calibrate", "calibrate_arm", "refit_arm"} <= set(command)

@@ -139,6 +139,18 @@ def test_all_mistakes_are_listed_at_once() -> None:
         check(config)
 
 
+def test_what_a_dataset_gets_alone_is_of_the_configuration_and_not_empty() -> None:
+    entry = GOOD["sources"]["finger"]
+    own = {"models": ["gp"], "presets": ["tuned"], "quantile_models": ["gb"], "interval_methods": ["cqr", "scp_mapie"]}
+    check(GOOD | {"datasets": ["finger"], "sources": {"finger": entry | own}})
+    for key, names in own.items():
+        with pytest.raises(ConfigError, match=rf"sources\.finger\.{key}: \[\]"):
+            check(GOOD | {"datasets": ["finger"], "sources": {"finger": entry | {key: []}}})
+        rest = [name for name in GOOD[key] if name not in names]
+        with pytest.raises(ConfigError, match=rf"sources\.finger\.{key}: '{names[0]}' is none of the configured"):
+            check(GOOD | {key: rest, "datasets": ["finger"], "sources": {"finger": entry | own}})
+
+
 def test_the_schema_is_strict_and_described_throughout() -> None:
     def walk(node: Any, path: str) -> None:
         if not isinstance(node, dict):

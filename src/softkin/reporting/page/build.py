@@ -80,7 +80,7 @@ def build_report(
     descriptions = {dataset: read_json(files.description) for dataset, files in robots.items()}
     cards = {dataset: read_json(files.data_card) for dataset, files in robots.items()}
     sources = {dataset: config["sources"][dataset] for dataset in robots}
-    marks = Marks(sources, descriptions, cards, bounds_of_fits(config))
+    marks = Marks(sources, descriptions, cards, {name: bounds_of_fits(config, name) for name in robots})
     times = measured(jobs)
     folders = [
         Folder(descriptions[dataset]["title"], files.figures, marks.of_dataset(dataset))

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
 
+from softkin.core.narrowing import narrowed
 from softkin.core.samples import SUBSETS, TRAIN, VALIDATION
 from softkin.core.units import MM, heading, unit_of
 from softkin.data.audit.findings import LEAK, NEIGHBOURS_IN_TIME
@@ -32,8 +33,8 @@ class Marks:
     A finding of severity `leak` in a data card marks its subsets as a `leak`, one of neighbours in time that stand in
     `train` as `optimistic`; `notes` of an entry in
     config/datasets.yaml stand with it, or are a `caution` on their subset; `is_cut` and the origin of dataset.json mark
-    every subset; so do `max_fit_rows`, the rows that models are fitted on at most, where `train` has more, and a unit
-    that is not mm.
+    every subset; so do `max_fit_rows`, by dataset the rows that its models are fitted on at most, where `train` has
+    more, and a unit that is not mm.
     """
 
     def __init__(
@@ -41,7 +42,7 @@ class Marks:
         sources: Mapping[str, Mapping[str, Any]],
         descriptions: Mapping[str, Mapping[str, Any]],
         cards: Mapping[str, Mapping[str, Any]],
-        max_fit_rows: Mapping[str, int] = MappingProxyType({}),
+        max_fit_rows: Mapping[str, Mapping[str, int]] = MappingProxyType({}),
     ) -> None:
         self._marks: dict[tuple[str, str], list[Mark]] = {}
         for dataset, description in descriptions.items():
@@ -58,7 +59,7 @@ class Marks:
                     if f.get("code") == NEIGHBOURS_IN_TIME and subset in f["subsets"]
                 ]
                 marks += [Mark("rows left out", f"{dataset}: {CUT}.")] * bool(description["is_cut"])
-                fewer = fitted_on_fewer(description, max_fit_rows)
+                fewer = fitted_on_fewer(description, max_fit_rows.get(dataset, {}))
                 marks += [Mark("fitted on fewer rows", f"{dataset}: {fewer}.")] * bool(fewer)
                 marks += [Mark("stand-in", f"{dataset}: {STANDIN}.")] * (description.get("origin") == "stand-in")
                 unit = unit_of(description)
@@ -81,9 +82,9 @@ class Marks:
         return merged([self.of(dataset, subset) for subset in SUBSETS])
 
 
-def bounds_of_fits(config: Mapping[str, Any]) -> dict[str, int]:
-    """Of the models and quantile regressors of a configuration, the rows that they are fitted on at most."""
-    fitted = {*config["models"], *config["quantile_models"]}
+def bounds_of_fits(config: Mapping[str, Any], dataset: str) -> dict[str, int]:
+    """Of the models and quantile regressors of a dataset, the rows that they are fitted on at most."""
+    fitted = {*narrowed(config, "models", dataset), *narrowed(config, "quantile_models", dataset)}
     return {name: most for name, most in config["max_fit_rows"].items() if name in fitted}
 
 

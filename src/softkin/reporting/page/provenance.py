@@ -15,6 +15,7 @@ import yaml
 
 from softkin import __version__
 from softkin.core.distributions import installed
+from softkin.core.narrowing import NARROWED
 from softkin.data.own_files import in_words
 from softkin.reporting.page.grid import Cell, Column, Grid, number_columns
 from softkin.reporting.page.marks import Marks
@@ -86,6 +87,12 @@ def _citation(work: Mapping[str, Any]) -> str:
     return ". ".join(["; ".join(people), work["title"], *details]) + "."
 
 
+def _what_is_narrowed(dataset: str, entry: Mapping[str, Any]) -> str:
+    """What a dataset is fitted with, where its entry narrows the configuration; empty where it does not."""
+    own = "; ".join(f"{NARROWED[key]} {', '.join(entry[key])}" for key in NARROWED if key in entry)
+    return f"Of what is configured, {dataset} gets by its entry alone: {own}." if own else ""
+
+
 def data_grid(
     descriptions: Mapping[str, Mapping[str, Any]], sources: Mapping[str, Mapping[str, Any]], marks: Marks
 ) -> Grid:
@@ -105,6 +112,7 @@ def data_grid(
         "What the models were fitted to: commands drive a robot, markers are the points on it whose positions are "
         f"predicted, in {marks.unit}. The hash identifies the content of the file."
     )
+    sentence = " ".join([sentence, *(_what_is_narrowed(name, sources[name]) for name in descriptions)]).strip()
     columns = [Column("Robot"), Column("Title", is_wide=True), *number_columns("Commands", "Markers")]
     columns += number_columns("Train rows", "Validation", "Test", "Extrapolation")
     columns += [Column("Constant coordinates", is_wide=True), Column("File"), Column("SHA-256 of the file")]

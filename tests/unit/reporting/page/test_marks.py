@@ -67,7 +67,8 @@ def test_a_unit_that_is_not_mm_is_a_mark_and_heads_columns() -> None:
 def test_models_that_are_fitted_on_fewer_rows_than_train_has_are_named() -> None:
     sources: dict[str, dict[str, Any]] = {"long": {}, "short": {}}
     about = {name: {"is_cut": False, "rows": {"train": rows}} for name, rows in (("long", 26136), ("short", 4000))}
-    of = Marks(sources, about, {name: {"findings": []} for name in sources}, {"gp": 4000, "rf": 10000, "xgb": 30000})
+    bounds = {"gp": 4000, "rf": 10000, "xgb": 30000}
+    of = Marks(sources, about, {name: {"findings": []} for name in sources}, dict.fromkeys(sources, bounds))
     text = "of 26136 rows of train, models are fitted on some, drawn at random (max_fit_rows): gp (4000), rf (10000)"
     assert of.of("long", "test") == of.of_dataset("long") == (Mark("fitted on fewer rows", f"long: {text}."),)
     assert of.of_dataset("short") == ()

@@ -72,6 +72,10 @@ def test_data_are_identified_by_the_hash_of_their_file() -> None:
         (row,) = grid.rows
         assert texts(row) == ["arm", "ARM", "2", "3", "704", "88", "89", "100", text, "arm.json", "ab" * 32]
     assert len(grid.columns) == len(row)
+    assert "gets by its entry" not in grid.sentence
+    own = {"arm": {"file": "arm.json", "presets": ["tuned"], "models": ["gp", "lr"]}}
+    said = data_grid({"arm": description | {"constant_coordinates": []}}, own, NO_MARKS).sentence
+    assert said.endswith("Of what is configured, arm gets by its entry alone: models gp, lr; presets tuned.")
 
 
 def test_what_was_run_has_a_value_for_each_name_of_the_template(tmp_path: Path) -> None:
