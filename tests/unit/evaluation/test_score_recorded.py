@@ -8,11 +8,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from softkin.core.metrics.point import mae_mm, rmse_mm
 from softkin.core.runs import Run
 from softkin.core.samples import SUBSETS, Samples
 from softkin.data.table import to_table, write_table
 from softkin.evaluation.recorded_names import COLUMNS
-from softkin.evaluation.score_recorded import Member, RecordedRun, in_time, next_sessions, score_recorded
+from softkin.evaluation.score_recorded import Member, Part, RecordedRun, in_time, next_sessions, plain, score_recorded
 from softkin.models import MODELS
 from softkin.training.kinematic_model import FitSettings
 from tests.conftest import four_subsets
@@ -90,6 +91,12 @@ def test_without_a_recording_there_is_nothing_to_score(tmp_path: Path) -> None:
     empty = scores(four_subsets(dict.fromkeys(SUBSETS, 30)), tmp_path)
     assert empty.empty
     assert list(empty.columns) == COLUMNS
+
+
+def test_errors_are_scored_as_the_point_metrics_score_positions() -> None:
+    true, predicted = np.random.default_rng(4).normal(size=(2, 37, 3))
+    of_errors = plain(Part(np.ones((19, 3)), true - predicted, None), 0.9)
+    assert (of_errors["rmse_mm"], of_errors["mae_mm"]) == (rmse_mm(true, predicted), mae_mm(true, predicted))
 
 
 def test_the_sessions_that_are_fitted_on() -> None:
