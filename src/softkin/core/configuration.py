@@ -57,10 +57,10 @@ def check_configuration(
     if not problems:
         problems = list(_unknown_names(config, registries))
     if not problems:
-        problems = list(problems_of_narrowing(config))
-    if not problems:
         found = [_problems_together(config), *(check(config) for check in checks)]
         problems = [line for lines in found for line in lines]
+    if not problems:
+        problems = list(problems_of_narrowing(config))
     if problems:
         raise ConfigError(
             "\n  ".join([f"{len(problems)} key{'s' * (len(problems) > 1)} cannot be used", *problems]),

@@ -1,7 +1,7 @@
 """What one dataset gets of the models, presets and methods that are configured: all, or what its entry narrows them to.
 
-An entry of config/datasets.yaml may have keys of the same names as the configuration's. Each is a part of what the
-configuration names, and is in the order of the configuration.
+An entry of config/datasets.yaml may have keys of the same names as the configuration's: of the names in such a key of
+the configuration, the dataset gets those that its entry names, too, in the order of the configuration.
 """
 
 from __future__ import annotations
@@ -71,11 +71,12 @@ def name_of(rule: str, group: Group) -> str:
 
 
 def problems_of_narrowing(config: Mapping[str, Any]) -> Iterator[str]:
-    """A line for each name in the entry of a configured dataset that the configuration does not name."""
+    """A line for each list in the entry of a configured dataset of which the configuration names nothing."""
     for dataset in config["datasets"]:
-        for key in NARROWED:
-            known = ", ".join(config[key])
-            for name in config["sources"][dataset].get(key, ()):
-                if name not in config[key]:
-                    what = f"'{name}' is none of the configured {key} ({known})"
-                    yield f"sources.{dataset}.{key}: {what}; add it there, or leave it out here"
+        for key, what in NARROWED.items():
+            own = config["sources"][dataset].get(key, ())
+            if own and not narrowed(config, key, dataset):
+                yield (
+                    f"sources.{dataset}.{key}: of {', '.join(own)} none is among the configured {what} "
+                    f"({', '.join(config[key])}); add one of them to {key}, or take {dataset} out of datasets"
+                )

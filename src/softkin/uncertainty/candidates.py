@@ -15,14 +15,15 @@ from softkin.uncertainty.intervals.spec import MARGINAL, IntervalMethod
 def problems_of_methods(
     config: Mapping[str, Any], methods: Mapping[str, IntervalMethod[Any]], models: Mapping[str, PointModel]
 ) -> Iterator[str]:
-    """Why no calibrated model could be made of the configured `interval_methods`, and methods that have no data; for
-    each dataset whose entry narrows what it gets, the same of that.
+    """Why no calibrated model could be made of the configured `interval_methods`, and methods that have no data;
+    where there are none, the same of each dataset whose entry narrows what it gets.
     """
-    yield from _problems("interval_methods", config, methods, models)
-    for dataset in config["datasets"]:
-        if set(NARROWED) & set(config["sources"][dataset]):
-            own = narrowed_configuration(config, dataset)
-            yield from _problems(f"sources.{dataset}.interval_methods", own, methods, models)
+    problems = list(_problems("interval_methods", config, methods, models))
+    for dataset in config["datasets"] if not problems else ():
+        own = narrowed_configuration(config, dataset)
+        if set(NARROWED) & set(config["sources"][dataset]) and all(own[key] for key in NARROWED):
+            problems += _problems(f"sources.{dataset}.interval_methods", own, methods, models)
+    yield from problems
 
 
 def _problems(

@@ -50,7 +50,8 @@ def test_datasets_of_the_same_files_are_together_and_those_of_all_files_come_fir
     assert groups(CONFIG | {"datasets": ["leg"]})[0] == Group("", (), CONFIG["presets"], methods)
 
 
-def test_names_that_the_configuration_does_not_have_are_told_of_configured_datasets() -> None:
+def test_a_list_of_which_nothing_is_configured_is_told_of_configured_datasets() -> None:
     assert list(problems_of_narrowing(CONFIG)) == []
-    (told,) = problems_of_narrowing(CONFIG | {"models": ["lr", "mlp"]})
-    assert told.startswith("sources.trunk.models: 'gp' is none of the configured models (lr, mlp)")
+    (told,) = problems_of_narrowing(CONFIG | {"models": ["lr", "rf"]})
+    assert told.startswith("sources.trunk.models: of gp none is among the configured models (lr, rf)")
+    assert narrowed(CONFIG | {"models": ["lr", "rf"]}, "models", "finger") == ["lr"]
