@@ -34,7 +34,7 @@ def jobs_to_do():
         )
         for job, number in numbers.items()
     }
-    return in_order(jobs, dict.fromkeys(stage_of(rule.name) for rule in workflow.rules))
+    return in_order(jobs, [stage_of(rule.name) for rule in workflow.rules])
 
 
 def jobs_at_a_time():
