@@ -15,6 +15,8 @@ rule prepare:
     params:
         source=source,
         max_rows=config.get("max_rows_per_subset"),
+        max_scored_rows=config.get("max_scored_rows"),
+        seed=config["seed"],
         code=prepare_code,
     script:
         "../scripts/prepare.py"

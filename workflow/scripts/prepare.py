@@ -3,6 +3,7 @@
 from softkin.core.job import job
 from softkin.data.audit.cleaning import cleaned
 from softkin.data.prepare import prepare
+from softkin.data.scored_rows import KeptRows
 
 dataset = snakemake.wildcards.dataset
 with job(snakemake.log[0], f"prepare {dataset}", snakemake.output, snakemake.input, snakemake.params):
@@ -13,6 +14,6 @@ with job(snakemake.log[0], f"prepare {dataset}", snakemake.output, snakemake.inp
         table=snakemake.output.table,
         description=snakemake.output.description,
         order_table=next(iter(snakemake.input.order), None),
-        max_rows=snakemake.params.max_rows,
+        kept=KeptRows(snakemake.params.max_rows, snakemake.params.max_scored_rows, snakemake.params.seed),
         clean=cleaned if snakemake.params.source.get("clean") else None,
     )

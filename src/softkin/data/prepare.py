@@ -24,6 +24,7 @@ from softkin.data.readers.columns import ORIENTATION, UNUSED, orientations
 from softkin.data.readers.complete_rows import LOST_MARKERS
 from softkin.data.recordings import description as recording_description
 from softkin.data.recordings import with_order_table
+from softkin.data.scored_rows import ALL_ROWS, DRAWN_FROM, KeptRows, scored_rows
 from softkin.data.split import check_sizes
 from softkin.data.table import content_hash, schema, to_table, write_table
 
@@ -46,7 +47,7 @@ def prepare(
     table: str | Path,
     description: str | Path,
     order_table: str | Path | None = None,
-    max_rows: int | None = None,
+    kept: KeptRows = ALL_ROWS,
     clean: Cleaning | None = None,
 ) -> None:
     """Read the file of a dataset, check it, write its tidy table (in mm or a unit of one's own) and a description.
@@ -58,7 +59,7 @@ def prepare(
         table: path of the tidy table to write (Parquet).
         description: path of the description to write (JSON).
         order_table: path of the table that says when rows were recorded, where the entry names one.
-        max_rows: rows of each subset that are kept, the first ones, to try the workflow out; None keeps all.
+        kept: how many rows of each subset are kept at most.
         clean: drops rows of `train` and counts them by kind; None drops none.
 
     Raises:
@@ -73,7 +74,9 @@ def prepare(
     if order_table is not None:
         samples = with_order_table(samples, order_table, source)
     recorded = recording_description(samples)
-    samples = {subset: _in_unit_of_tables(rows, max_rows, source["position_unit"]) for subset, rows in samples.items()}
+    samples = {
+        subset: _in_unit_of_tables(rows, kept.first, source["position_unit"]) for subset, rows in samples.items()
+    }
     if source.get("relabel"):
         samples, mended = relabelled(samples)
         counts |= {RELABELLED: mended}
@@ -82,6 +85,7 @@ def prepare(
     if clean is not None:
         samples, removed = clean(samples)
         logger.info("cleaned train: %s", ", ".join(f"{count} {what}" for what, count in removed.items()))
+    samples, drawn_from = scored_rows(samples, kept)
     _check_left(samples, where)
     _check_movement(samples[TRAIN], unit_in_tables(source["position_unit"]), f"{where}, `train`")
     _warn_of_implausible_range(samples[TRAIN], source, where)
@@ -91,8 +95,8 @@ def prepare(
         "dataset": dataset,
         "sha256": sha256,
         "removed_from_train": removed,
-        "is_cut": max_rows is not None and any(size > max_rows for size in sizes.values()),
-    }
+        "is_cut": kept.first is not None and any(size > kept.first for size in sizes.values()),
+    } | ({DRAWN_FROM: drawn_from} if drawn_from else {})
     about |= counts | oriented | _description(samples, source) | ({"recording": recorded} if recorded else {})
     write_json(description, about | _columns(columns, source, counts))
     n_rows, train = sum(map(len, samples.values())), samples[TRAIN]

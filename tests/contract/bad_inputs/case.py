@@ -16,6 +16,7 @@ from softkin.cli.configuration import check
 from softkin.core.config_files import check_config_files
 from softkin.core.errors import SoftkinError
 from softkin.data.prepare import prepare
+from softkin.data.scored_rows import KeptRows
 from tests.conftest import HOUSE
 
 SCHEMA = HOUSE / "workflow" / "schemas" / "config.schema.yaml"
@@ -92,7 +93,7 @@ def prepared(content: str | bytes, entry: Mapping[str, Any], max_rows: int | Non
             source={"file": "arm.csv", "title": "Arm", **entry},
             table="table.parquet",
             description="dataset.json",
-            max_rows=max_rows,
+            kept=KeptRows(first=max_rows),
         )
 
     return provoke

@@ -20,6 +20,7 @@ from softkin.core.units import MM_PER_UNIT
 from softkin.data.prepare import prepare
 from softkin.data.readers import table_file
 from softkin.data.readers.table_formats import open_table
+from softkin.data.scored_rows import DRAWN_FROM, KeptRows
 from softkin.data.table import read_subset
 from tests.conftest import HOUSE, four_subsets, published_json
 
@@ -62,10 +63,19 @@ def test_another_number_of_rows_than_registered_is_an_error(tmp_path: Path) -> N
 
 
 def test_max_rows_keeps_the_first_rows_and_says_so(tmp_path: Path) -> None:
-    _, written_description = run(tmp_path, entry(), max_rows=25)
+    _, written_description = run(tmp_path, entry(), kept=KeptRows(first=25))
     assert written_description["rows"] == SIZES | {"train": 25}
     assert written_description["is_cut"]
     assert not run(tmp_path, entry())[1]["is_cut"]
+
+
+def test_of_many_rows_to_score_some_are_drawn_and_the_description_says_of_how_many(tmp_path: Path) -> None:
+    table, written_description = run(tmp_path, entry(), kept=KeptRows(scored=6))
+    assert written_description["rows"] == SIZES | {"extrapolation": 6}
+    assert written_description[DRAWN_FROM] == {"extrapolation": 7}
+    assert not written_description["is_cut"]
+    assert len(read_subset(table, "extrapolation")) == 6
+    assert DRAWN_FROM not in run(tmp_path, entry(), kept=KeptRows(scored=7))[1]
 
 
 def test_a_table_of_ones_own_is_read_once_and_described_by_what_it_holds(

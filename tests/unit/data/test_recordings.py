@@ -18,6 +18,7 @@ from softkin.core.samples import SUBSETS, Samples
 from softkin.data.prepare import prepare
 from softkin.data.readers import published_json, table_file
 from softkin.data.recordings import description, recording_of, with_order_table
+from softkin.data.scored_rows import KeptRows
 from softkin.data.standins.simulating import simulate
 from softkin.data.table import content_hash, read_subset
 from tests.conftest import HOUSE, four_subsets
@@ -173,7 +174,7 @@ def test_the_recorded_finger(published_mirror: Path, tmp_path: Path) -> None:
             table=tmp_path / f"{place}.parquet",
             description=tmp_path / f"{place}.json",
             order_table=order,
-            max_rows=cut,
+            kept=KeptRows(first=cut),
         )
     for subset in SUBSETS:
         whole, cut_rows = (read_subset(tmp_path / f"{place}.parquet", subset) for place in range(2))

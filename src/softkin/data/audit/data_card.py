@@ -31,12 +31,13 @@ from softkin.data.marker_order import RELABELLED
 from softkin.data.orientation import KEY
 from softkin.data.readers.columns import ORIENTATION, UNUSED
 from softkin.data.readers.complete_rows import COUNTED
+from softkin.data.scored_rows import DRAWN_FROM
 from softkin.data.table import read_subset
 
 logger = logging.getLogger("softkin")
 
 #: Keys of a dataset's description, and of its card, for what was left out or mended, and for the orientation.
-LEFT_OUT = ("removed_from_train", *COUNTED, RELABELLED, UNUSED, ORIENTATION, KEY)
+LEFT_OUT = ("removed_from_train", *COUNTED, RELABELLED, UNUSED, ORIENTATION, KEY, DRAWN_FROM)
 #: Names of columns in softkin's tables, in a sentence.
 COLUMN = re.compile(r"\b(?:u\d+|m\d+_[xyz])\b")
 

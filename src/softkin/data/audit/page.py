@@ -11,6 +11,7 @@ from softkin.data.audit.findings import counted
 from softkin.data.orientation import KEY
 from softkin.data.readers.columns import ORIENTATION, UNUSED
 from softkin.data.readers.complete_rows import GAPS, LOST_MARKERS, UNJOINED
+from softkin.data.scored_rows import DRAWN_FROM
 
 OTHERS = [subset for subset in SUBSETS if subset != TRAIN]
 #: The page shows this many row numbers of a finding and this many columns of a long table; the JSON has more, and all.
@@ -100,6 +101,9 @@ def _not_read(card: Mapping[str, Any]) -> list[str]:
         said.append(f"Left out by `missing`, since the marker is lost in {counted(marker['rows'], 'row')}: {columns}.")
     if UNJOINED in card:
         said.append(f"Left out by `join`, since they have no partner: {counted(card[UNJOINED], 'row')}.")
+    for subset, count in card.get(DRAWN_FROM, {}).items():
+        left = card["subsets"][subset]["rows"]
+        said.append(f"Of {subset} {left} of {count} rows are kept, drawn at random (`max_scored_rows`).")
     return said
 
 

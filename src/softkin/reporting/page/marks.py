@@ -11,6 +11,7 @@ from softkin.core.narrowing import narrowed
 from softkin.core.samples import SUBSETS, TRAIN, VALIDATION
 from softkin.core.units import MM, heading, unit_of
 from softkin.data.audit.findings import LEAK, NEIGHBOURS_IN_TIME
+from softkin.data.scored_rows import DRAWN_FROM
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,6 +24,7 @@ class Mark:
 
 CUT = "rows were left out (max_rows_per_subset): not comparable with the paper, nor with a complete run"
 FEWER = "of {n_train} rows of train, models are fitted on some, drawn at random (max_fit_rows): {models}"
+DRAWN = "{left} of {count} rows of {subset} are kept, drawn at random (max_scored_rows)"
 OWN_UNIT = "positions, errors and widths of this robot are in {unit}, also below names that end in _mm"
 STANDIN = "a stand-in, simulated by softkin in place of the published data: its numbers say nothing of the real robot"
 
@@ -61,6 +63,9 @@ class Marks:
                 marks += [Mark("rows left out", f"{dataset}: {CUT}.")] * bool(description["is_cut"])
                 fewer = fitted_on_fewer(description, max_fit_rows.get(dataset, {}))
                 marks += [Mark("fitted on fewer rows", f"{dataset}: {fewer}.")] * bool(fewer)
+                if count := description.get(DRAWN_FROM, {}).get(subset):
+                    drawn = DRAWN.format(left=description["rows"][subset], count=count, subset=subset)
+                    marks.append(Mark("some of its rows", f"{dataset}: {drawn}."))
                 marks += [Mark("stand-in", f"{dataset}: {STANDIN}.")] * (description.get("origin") == "stand-in")
                 unit = unit_of(description)
                 marks += [Mark(f"in {unit}", f"{dataset}: {OWN_UNIT.format(unit=unit)}.")] * (unit != MM)

@@ -106,6 +106,13 @@ def test_rows_that_were_dropped_are_counted(card: dict[str, Any]) -> None:
     assert "Dropped from train by `clean`: 2 stuck rows, 0 duplicate rows." in page(card)
 
 
+def test_subsets_of_which_rows_were_drawn_say_of_how_many(card: dict[str, Any]) -> None:
+    assert "max_scored_rows" not in page(card)
+    left = card["subsets"]["test"]["rows"]
+    text = page(card | {"drawn_from": {"test": 17820}})
+    assert f"Of test {left} of 17820 rows are kept, drawn at random (`max_scored_rows`)." in text
+
+
 def test_columns_that_are_not_used_are_named_and_orientations_are_said_to_be_left_out(card: dict[str, Any]) -> None:
     assert "does not name" not in page(card)
     card |= {"unused_columns": ["frame", "tip_qw"], "orientation_columns": ["tip_qw"]}

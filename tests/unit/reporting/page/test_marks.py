@@ -72,3 +72,12 @@ def test_models_that_are_fitted_on_fewer_rows_than_train_has_are_named() -> None
     text = "of 26136 rows of train, models are fitted on some, drawn at random (max_fit_rows): gp (4000), rf (10000)"
     assert of.of("long", "test") == of.of_dataset("long") == (Mark("fitted on fewer rows", f"long: {text}."),)
     assert of.of_dataset("short") == ()
+
+
+def test_a_subset_of_which_rows_were_drawn_says_of_how_many() -> None:
+    rows = {"train": 26136, "test": 4000, "extrapolation": 4000}
+    about = {"long": {"is_cut": False, "rows": rows, "drawn_from": {"extrapolation": 17820}}}
+    of = Marks({"long": {}}, about, {"long": {"findings": []}})
+    text = "long: 4000 of 17820 rows of extrapolation are kept, drawn at random (max_scored_rows)."
+    assert of.of("long", "extrapolation") == (Mark("some of its rows", text),)
+    assert of.of("long", "test") == ()
