@@ -78,9 +78,7 @@ def prepare(
         subset: _in_unit_of_tables(rows, kept.first, source["position_unit"]) for subset, rows in samples.items()
     }
     if source.get("relabel"):
-        samples, mended = relabelled(samples)
-        counts |= {RELABELLED: mended}
-        logger.info("relabelled: %s", ", ".join(f"{count} rows of {subset}" for subset, count in mended.items()))
+        samples, counts = _relabelled(samples, counts)
     removed = None
     if clean is not None:
         samples, removed = clean(samples)
@@ -101,6 +99,13 @@ def prepare(
     write_json(description, about | _columns(columns, source, counts))
     n_rows, train = sum(map(len, samples.values())), samples[TRAIN]
     logger.info("%d rows, %d commands, %d coordinates", n_rows, train.commands.shape[1], train.positions.shape[1])
+
+
+def _relabelled(samples: Mapping[str, Samples], counts: Mapping[str, Any]) -> tuple[dict[str, Samples], dict[str, Any]]:
+    """The samples with their markers in order, and what was left out beside how many rows that mended."""
+    samples, mended = relabelled(samples)
+    logger.info("relabelled: %s", ", ".join(f"{count} rows of {subset}" for subset, count in mended.items()))
+    return samples, {**counts, RELABELLED: mended}
 
 
 def _checked_table(samples: Mapping[str, Samples]) -> pd.DataFrame:
