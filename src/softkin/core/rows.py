@@ -14,11 +14,19 @@ Indices = NDArray[np.int64]
 
 #: Rows worked on at a time, so that a million rows stand in memory once.
 CHUNK = 50_000
+#: More rows than published robots have in a subset: what is fitted on more predicts in parts of at most `PART` rows,
+#: whose kernels stay in the cache. The last bits of its predictions follow from that; on fewer they stay as they were.
+MANY_ROWS, PART = 3_500, 1_000
 
 
 def chunks(n_rows: int) -> Iterator[slice]:
     """Slices of at most `CHUNK` rows, in order."""
     return (slice(start, start + CHUNK) for start in range(0, n_rows, CHUNK))
+
+
+def in_parts(values: Array, at_most: int) -> list[Array]:
+    """The rows of `values` (n_rows, n_columns) in their order, in parts of at most so many; at least one."""
+    return np.array_split(values, max(1, -(-len(values) // at_most)))
 
 
 def stacked_commands(samples: Mapping[str, Samples]) -> Array:

@@ -22,9 +22,9 @@ def build(params: Params, seed: int, threads: int) -> Any:
     from sklearn.svm import SVR
 
     from softkin.models.estimators.detrended import detrended
-    from softkin.models.estimators.per_target import PerTarget
+    from softkin.models.estimators.support_vectors import SupportVectors
 
-    return detrended(lambda rest: PerTarget(SVR(**rest, cache_size=CACHE_MB)), params)
+    return detrended(lambda rest: SupportVectors(SVR(**rest, cache_size=CACHE_MB)), params)
 
 
 def search_space(trial: BaseTrial) -> Params:

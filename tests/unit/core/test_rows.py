@@ -10,6 +10,7 @@ import softkin.core.rows
 from softkin.core.rows import (
     command_scale,
     first_of_each,
+    in_parts,
     repeats_an_earlier_row,
     row_groups,
     sampled_rows,
@@ -70,3 +71,11 @@ def test_what_is_stacked_is_split_again() -> None:
     parts = split_by_subset(stacked_positions(samples, np.array([True, False, True])), samples)
     assert {name: part.tolist() for name, part in parts.items()} == {"a": [[2.0, 2.0]] * 2, "b": [[3.0, 3.0]] * 3}
     assert stacked_commands(samples).shape == (5, 2)
+
+
+def test_parts_hold_all_rows_in_their_order_and_at_most_so_many() -> None:
+    values = np.arange(50.0).reshape(25, 2)
+    assert [len(part) for part in in_parts(values, 10)] == [9, 8, 8]
+    np.testing.assert_array_equal(np.concatenate(in_parts(values, 10)), values)
+    assert [len(part) for part in in_parts(values, 25)] == [25]
+    assert [len(part) for part in in_parts(values[:0], 10)] == [0]

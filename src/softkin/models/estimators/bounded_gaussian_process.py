@@ -21,6 +21,7 @@ from sklearn.gaussian_process.kernels import (
     WhiteKernel,
 )
 
+from softkin.core.rows import MANY_ROWS, PART, in_parts
 from softkin.core.samples import Array
 from softkin.models.estimators.kernel_likelihood import SHAPES, TREND_TERMS, Likelihood, Linear
 
@@ -30,7 +31,7 @@ LENGTH_SCALE_BOUNDS = (1e-2, 1e3)
 NOISE_BOUNDS = (1e-10, 1.0)
 #: Scaled objective of a kernel that cannot be factorised: worse than any, and finite for the line search.
 SINGULAR = 1e6
-#: Rows predicted at once: with 6000 rows of `train` their kernel takes half a gigabyte.
+#: Rows predicted at once, where as many as published robots have are fitted on.
 ROWS_AT_ONCE = 10_000
 JITTERS = (1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5)
 
@@ -81,7 +82,7 @@ class BoundedGaussianProcess(RegressorMixin, BaseEstimator):  # type: ignore[mis
 
     def predict(self, X: Array) -> Array:
         """Posterior mean (n_rows, n_coordinates)."""
-        return np.concatenate([self.posterior_.predict(part) for part in _parts(X)])
+        return np.concatenate([self.posterior_.predict(part) for part in self._parts(X)])
 
     def predict_std(self, X: Array) -> Array:
         """Standard deviation (n_rows, n_coordinates) of the posterior predictive distribution, noise included.
@@ -89,10 +90,14 @@ class BoundedGaussianProcess(RegressorMixin, BaseEstimator):  # type: ignore[mis
         The shared kernel fixes it but for one factor per coordinate, its maximum-likelihood estimate: the root of
         y' K^-1 y / n (Rasmussen and Williams 2006, section 5.4.1).
         """
-        std = np.concatenate([self.posterior_.predict(part, return_std=True)[1] for part in _parts(X)])
+        std = np.concatenate([self.posterior_.predict(part, return_std=True)[1] for part in self._parts(X)])
         trained = self.posterior_.y_train_.reshape(len(self.posterior_.X_train_), -1)
         factors = np.sqrt((trained * self.posterior_.alpha_.reshape(trained.shape)).mean(axis=0))
         return np.asarray(std.reshape(len(X), -1)[:, :1] * factors)
+
+    def _parts(self, X: Array) -> list[Array]:
+        """The rows in parts whose kernel with the trained rows fits into memory."""
+        return in_parts(X, PART if len(self.posterior_.X_train_) > MANY_ROWS else ROWS_AT_ONCE)
 
     def _kernel(self, n_commands: int) -> Kernel:
         if self.trend == "paper_linear":
@@ -148,11 +153,6 @@ class _Posterior(GaussianProcessRegressor):  # type: ignore[misc]
 
     def log_marginal_likelihood(self, *args: Any, **kwargs: Any) -> float:  # noqa: ARG002 (scikit-learn's signature)
         return float("nan")
-
-
-def _parts(X: Array) -> list[Array]:
-    """The rows in parts whose kernel with the trained rows fits into memory; at least one."""
-    return np.array_split(X, max(1, -(-len(X) // ROWS_AT_ONCE)))
 
 
 def _conditioned(kernel: Kernel, X: Array, y: Array) -> GaussianProcessRegressor:

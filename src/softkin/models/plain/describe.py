@@ -16,6 +16,8 @@ from softkin.core.samples import Array, Samples
 from softkin.models.plain import describe_kernels, describe_trees
 from softkin.models.plain.kernels import Node
 
+#: Regressors of several targets that hold one estimator for each.
+PER_TARGET = ("PerTarget", "SupportVectors")
 Describer = Callable[[Sequence[Any], "Samples | None"], Node]
 
 
@@ -26,7 +28,7 @@ def described(estimator: Any, known: Samples | None = None) -> Node:
         ConfigError: there is no describer for its class.
     """
     name = type(estimator).__name__
-    estimators = estimator.estimators_ if name == "PerTarget" else [estimator]
+    estimators = estimator.estimators_ if name in PER_TARGET else [estimator]
     name = type(estimators[0]).__name__
     if name not in DESCRIBERS:
         raise ConfigError(

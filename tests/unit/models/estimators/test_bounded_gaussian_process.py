@@ -86,12 +86,15 @@ def test_the_standard_deviation_holds_its_share_of_new_rows_in_every_coordinate(
     assert scaled.predict_std(X[300:])[:, 1].mean() > 5 * scaled.predict_std(X[300:])[:, 0].mean()
 
 
-def test_many_rows_are_predicted_in_parts(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("bounds", [{"ROWS_AT_ONCE": 10}, {"MANY_ROWS": 39, "PART": 10}], ids=["few", "many"])
+def test_many_rows_are_predicted_in_parts(bounds: dict[str, int], monkeypatch: pytest.MonkeyPatch) -> None:
     rng = np.random.default_rng(0)
     X, y = rng.uniform(-1, 1, (40, 2)), rng.standard_normal((40, 3))
     model = BoundedGaussianProcess(max_iter=2).fit(X, y)
     new = rng.uniform(-1, 1, (25, 2))
     whole = model.predict(new), model.predict_std(new)
-    monkeypatch.setattr("softkin.models.estimators.bounded_gaussian_process.ROWS_AT_ONCE", 10)
+    for name, value in bounds.items():
+        monkeypatch.setattr(f"softkin.models.estimators.bounded_gaussian_process.{name}", value)
+    assert [len(part) for part in model._parts(new)] == [9, 8, 8]
     for once, parts in zip(whole, (model.predict(new), model.predict_std(new)), strict=True):
         np.testing.assert_allclose(parts, once, rtol=1e-10)
