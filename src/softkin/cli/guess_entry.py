@@ -24,6 +24,8 @@ from softkin.data.readers.memory_table import Table
 from softkin.data.readers.table_formats import open_table
 from softkin.data.recordings import check_placed, recording_of
 
+#: A table, and its columns by their names.
+Looked = tuple[Table, Mapping[str, Any]]
 #: Parts of a column's name that say one power-on of the robot.
 SESSION = re.compile(r"session|trial|run")
 #: A workspace wider than this is taken to be in mm: no robot is so many metres wide.
@@ -34,17 +36,22 @@ UNITS = frozenset({*MM_PER_UNIT, PX, "pixel", "pixels"})
 
 
 def guess_entry(
-    path: Path, title: str, file: str, options: Mapping[str, Any] | None = None, answer: int = 0
+    path: Path,
+    title: str,
+    file: str,
+    options: Mapping[str, Any] | None = None,
+    answer: int = 0,
+    seen: Looked | None = None,
 ) -> tuple[dict[str, Any], list[str]]:
     """The entry that the table at `path` probably needs, and a sentence on each key that was guessed. `file` is the
     path that the entry names; `options` are keys of the entry that say how the file is read; `answer` is 0 or 1, where
-    the table raises a question (`asked`).
+    the table raises a question (`asked`); `seen` is what `look` found at the path, where that is known.
 
     Raises:
         DataError: the file cannot be read, or its columns do not tell which are positions and commands.
     """
     try:
-        table, looked = _looked(path, options)
+        table, looked = look(path, options) if seen is None else seen
         question, of_turn = _questions(table.names, looked)
         asked_out = () if question is None else question.left_out[answer]
         told = question.as_commands if question is not None and answer else ()
@@ -95,16 +102,13 @@ def guess_entry(
     return entry, reasons
 
 
-def asked(path: Path, options: Mapping[str, Any] | None = None) -> Question | None:
-    """The question that the table at `path` raises; `guess_entry` takes the answer. None where it raises none.
+def asked(path: Path, options: Mapping[str, Any] | None = None, seen: Looked | None = None) -> Question | None:
+    """The question that the table at `path` raises, None without one; `guess_entry` takes the answer, and `seen`.
 
     Raises:
         DataError: the file cannot be read.
     """
-    try:
-        table, looked = _looked(path, options)
-    except DataError as error:
-        raise error if error.where == str(path) else error.within(str(path)) from error
+    table, looked = look(path, options) if seen is None else seen
     return _questions(table.names, looked)[0]
 
 
@@ -114,10 +118,17 @@ def _questions(names: Sequence[str], looked: Mapping[str, Any]) -> tuple[Questio
     return (question, False) if question is not None else (question_of_orientation(names, looked), True)
 
 
-def _looked(path: Path, options: Mapping[str, Any] | None) -> tuple[Table, dict[str, Any]]:
-    """The table, and its columns (n_rows,) as far as they can be read."""
-    table = open_table(path, options or {})
-    return table, dict(zip(table.names, table.look(), strict=True))
+def look(path: Path, options: Mapping[str, Any] | None) -> Looked:
+    """The table at `path`, and its columns (n_rows,) as far as they can be read.
+
+    Raises:
+        DataError: the file cannot be read.
+    """
+    try:
+        table = open_table(path, options or {})
+        return table, dict(zip(table.names, table.look(), strict=True))
+    except DataError as error:
+        raise error if error.where == str(path) else error.within(str(path)) from error
 
 
 def _positions(names: Sequence[str], path: Path) -> tuple[list[str], int, list[str]]:

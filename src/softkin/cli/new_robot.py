@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from softkin.cli.datasets_file import append_entry, entry_text, read_key
-from softkin.cli.guess_entry import asked, guess_entry
+from softkin.cli.guess_entry import Looked, asked, guess_entry, look
 from softkin.cli.guess_questions import Question
 from softkin.cli.robot_files import RobotFiles, robot_files
 from softkin.core.errors import ConfigError, DataError, SoftkinError
@@ -28,6 +28,21 @@ CONFIG = Path("config") / "config.yaml"
 NAME = re.compile(r"[a-z][a-z0-9_]*")
 
 logger = logging.getLogger("softkin")
+
+
+class _Once(logging.Filter):
+    """Lets each message through once: a file is read for the guess, and again as its entry says."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._shown: set[str] = set()
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        """Whether it is new."""
+        message = record.getMessage()
+        is_new = message not in self._shown
+        self._shown.add(message)
+        return is_new
 
 
 def show_and_write(
@@ -48,12 +63,13 @@ def show_and_write(
     """
     with robot_files(files, options or {}, join) as found:
         name = _checked_name(name, files[0])
-        question = asked(found.path, found.options)
+        seen = look(found.path, found.options)
+        question = asked(found.path, found.options, seen)
         chosen = 0 if question is None or answer is None else answer - 1
-        text, entry = _text(name, name, found, chosen)
+        text, entry = _text(name, (name, chosen), found, seen)
         print(text, end="")
         if question is not None and answer is None:
-            _ask(question, _text(name, f"{name}_2", found, 1)[0], found.file, write)
+            _ask(question, _text(name, (f"{name}_2", 1), found, seen)[0], found.file, write)
         subsets = table_file.read(found.path, dataset=name, source=entry)
     print("rows: " + ", ".join(f"{subset} {len(rows)}" for subset, rows in subsets.items()), file=sys.stderr)
     if not write:
@@ -72,9 +88,10 @@ def show_and_write(
     )
 
 
-def _text(name: str, key: str, found: RobotFiles, answer: int) -> tuple[str, dict[str, Any]]:
-    """The entry of the dataset `name` by one answer, as text under a `key`, and itself."""
-    guessed, reasons = guess_entry(found.path, name.replace("_", " ").capitalize(), found.file, found.options, answer)
+def _text(name: str, answered: tuple[str, int], found: RobotFiles, seen: Looked) -> tuple[str, dict[str, Any]]:
+    """The entry of the dataset `name` under a key by one answer, `answered`, as text and itself."""
+    (key, answer), title = answered, name.replace("_", " ").capitalize()
+    guessed, reasons = guess_entry(found.path, title, found.file, found.options, answer, seen)
     entry = found.entry(guessed)
     return entry_text(key, entry, [*found.reasons, *reasons]), entry
 
@@ -122,6 +139,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     handler = logging.StreamHandler(sys.stderr)
     handler.setFormatter(logging.Formatter("%(levelname)s: %(message)s"))
+    handler.addFilter(_Once())
     logger.addHandler(handler)
     logger.setLevel(logging.INFO)
     logger.propagate = False  # each message is shown once, here, whatever handlers the root logger has

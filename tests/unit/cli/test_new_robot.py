@@ -202,7 +202,12 @@ def test_commands_and_positions_in_two_files_become_one_entry(house: Path, capsy
     table[["ID", "u1", "u2"]].to_csv("my commands.csv", index=False)
     table[["ID", "x", "y", "z"]].to_csv("take.csv", index=False)
     assert main(["my commands.csv", "take.csv", "--name", "arm", "--write"]) == 0
-    entry = yaml.safe_load(capsys.readouterr().out)["arm"]
+    shown = capsys.readouterr()
+    entry = yaml.safe_load(shown.out)["arm"]
+    # Each file is read again and again, and each message is shown once, with the name of its file.
+    for name in ("my commands.csv", "take.csv"):
+        assert shown.err.count(f"INFO: read as utf-8, columns split by comma, decimal points: {name}\n") == 1
+    assert shown.err.count("read as") == 2
     assert entry["files"] == ["my commands.csv", "take.csv"]
     assert entry["join"] == {"by": "column", "column": "ID"}
     assert "file" not in entry

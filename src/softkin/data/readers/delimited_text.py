@@ -7,7 +7,7 @@ from __future__ import annotations
 import io
 import logging
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -37,11 +37,14 @@ LOOKED_AT = 100_000
 
 @dataclass(frozen=True, slots=True)
 class DelimitedText:
-    """A text file, and how it is written; `content` is its text where that is made and not in the file."""
+    """A text file, and how it is written; `content` is its text where that is made and not in the file, `called` what
+    a person calls the file.
+    """
 
     path: Path
     layout: TextLayout
     content: bytes | None = None
+    called: str = ""
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -78,8 +81,9 @@ class DelimitedText:
             texts = [table.column(f"c{other}").to_numpy().astype(object) for other in others]
             if not np.isfinite(values).all() and not (gaps and not np.isinf(values).any()):
                 break
-            split_by = self._delimiter_in_words()
-            logger.info("read as %s, columns split by %s, decimal %s", self.layout.encoding, split_by, name)
+            if numbers:
+                how = self.layout.encoding, self._delimiter_in_words(), name, self.called or self.path.name
+                logger.info("read as %s, columns split by %s, decimal %s: %s", *how)
             if mark == "," and all(THOUSANDS.fullmatch(cell) for cell in self._first_cells(numbers) if "," in cell):
                 remark = DataError(
                     "numbers such as 1,234 were read as decimal commas (1.234)",
@@ -198,7 +202,8 @@ def open_table(path: Path, source: Mapping[str, Any]) -> Table:
     Raises:
         DataError: as `open_text` and `with_lists`.
     """
-    return with_lists(open_text(path, source.get("delimiter"), source.get("header")))
+    text = open_text(path, source.get("delimiter"), source.get("header"))
+    return with_lists(replace(text, called=source.get("file", "")))
 
 
 def with_lists(text: DelimitedText) -> Table:

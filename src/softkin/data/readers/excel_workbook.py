@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -40,7 +41,8 @@ def open_table(path: Path, source: Mapping[str, Any]) -> Table:
         ) from error
     name = _chosen({name: rows for name, rows in sheets.items() if any(map(_is_filled, rows))}, source.get("sheet"))
     try:
-        return with_lists(open_text(path, ",", source.get("header"), _as_text(sheets[name])))
+        text = open_text(path, ",", source.get("header"), _as_text(sheets[name]))
+        return with_lists(replace(text, called=source.get("file", "")))
     except DataError as error:
         raise error.within(f"sheet '{name}'") from error
 

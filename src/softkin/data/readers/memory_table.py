@@ -18,6 +18,8 @@ from softkin.data.readers.bad_rows import FIX_MISSING, MISSING, NUMBER, listed
 
 #: Of the cells of a column of numbers that are not empty, this share holds numbers.
 MOSTLY = 0.5
+#: Of these characters alone, what Python reads as a number is one by `NUMBER`, too.
+_OF_NUMBERS = frozenset("0123456789.+-eE")
 #: What numpy writes around a number in a list.
 _WRAPPED = re.compile(r"np\.\w+\(([^()]*)\)")
 _LIST = re.compile(r"\s*[\[(].*[\])]\s*", re.DOTALL)
@@ -128,6 +130,9 @@ def number_of(cell: Any) -> float | None:
 
 def looked_at(cells: Sequence[Any]) -> NDArray[Any]:
     """Cells of one column as numbers (NaN where there is none) or, where most hold none, as objects."""
+    plain = _plain_numbers(cells)
+    if plain is not None:
+        return plain
     numbers = [number_of(cell) for cell in cells]
     known = sum(number is not None and number == number for number in numbers)
     filled = sum(not is_gap(cell) for cell in cells)
@@ -136,6 +141,18 @@ def looked_at(cells: Sequence[Any]) -> NDArray[Any]:
         texts[:] = [str(cell) for cell in cells]
         return texts
     return np.array([np.nan if number is None else number for number in numbers], dtype=np.float64)
+
+
+def _plain_numbers(cells: Sequence[Any]) -> Array | None:
+    """What `looked_at` makes of texts that are numbers with decimal points, or empty, in a tenth of the time; None
+    where a cell is anything else.
+    """
+    try:
+        if not set("".join(cells)) <= _OF_NUMBERS:
+            return None
+        return np.array([float(cell) if cell else np.nan for cell in cells], dtype=np.float64)
+    except (TypeError, ValueError):
+        return None
 
 
 def list_in(cell: Any) -> list[float] | None:

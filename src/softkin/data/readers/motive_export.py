@@ -17,7 +17,7 @@ _UNITS = {"Millimeters": "mm", "Centimeters": "cm", "Meters": "m", "Inches": "in
 _LINES = 20
 
 
-def open_table(path: Path, _source: Mapping[str, Any]) -> Table:
+def open_table(path: Path, source: Mapping[str, Any]) -> Table:
     """The frames; columns are `Frame`, `Time (Seconds)`, and `<marker>_x`, ... or `<body>_rotation_x`, ...
 
     Raises:
@@ -39,4 +39,5 @@ def open_table(path: Path, _source: Mapping[str, Any]) -> Table:
     header = dict(zip(rows[0][::2], rows[0][1::2], strict=False))
     unit = _UNITS.get(header.get("Length Units", ""), "")
     units = tuple(unit if kind == "Position" else "" for kind in kinds)
-    return DelimitedText(path, TextLayout("utf-8-sig", ",", frame, tuple(names), 1, units))
+    layout = TextLayout("utf-8-sig", ",", frame, tuple(names), 1, units)
+    return DelimitedText(path, layout, called=source.get("file", ""))

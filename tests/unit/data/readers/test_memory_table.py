@@ -4,6 +4,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from softkin.core.errors import DataError
 from softkin.data.readers.memory_table import MemoryTable, from_cells, list_in, looked_at, number_of
@@ -41,6 +43,19 @@ def test_numbers_gaps_and_text_are_told_apart() -> None:
     assert np.isnan(missing).all()
     assert looked_at(["1", "", "a"]).dtype == object
     np.testing.assert_array_equal(looked_at(["1", "2", "", "a"]), [1.0, 2.0, np.nan, np.nan])
+    np.testing.assert_array_equal(looked_at(["1,5", "2"]), [1.5, 2.0])
+    assert looked_at(["", ""]).dtype == np.float64
+    assert looked_at([]).dtype == np.float64
+
+
+@given(st.lists(st.text("0123456789.+-eE, na", max_size=5), max_size=6))
+def test_a_look_at_texts_takes_each_as_the_number_that_it_is(cells: list[str]) -> None:
+    numbers = [number_of(cell) for cell in cells]
+    seen = looked_at(cells)
+    if seen.dtype == object:
+        assert list(seen) == cells
+    else:
+        np.testing.assert_array_equal(seen, [np.nan if number is None else number for number in numbers])
 
 
 def table() -> MemoryTable:
