@@ -70,16 +70,8 @@ def guess_entry(
         raise DataError("a header, but no row of numbers", where=path, fix="export the file again")
     unit, why_unit = _unit(positions, values, path, table)
     split_options, why_split = _split(table, kinds)
-    entry: dict[str, Any] = {
-        "title": title,
-        "format": "table_file",
-        "file": file,
-        **(options or {}),
-        "position_unit": unit,
-        "commands": commands,
-        "positions": positions,
-        "split": split_options,
-    }
+    entry: dict[str, Any] = {"title": title, "format": "table_file", "file": file, **(options or {})}
+    entry |= {"position_unit": unit, "commands": commands, "positions": positions, "split": split_options}
     when, why_when = _when(table, kinds)
     turned, why_turned = orientation_key(table.names, looked, answer if of_turn else None)
     if not when and split_options["method"] == "random" and column_kinds.are_alike(inputs):
