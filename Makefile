@@ -10,7 +10,7 @@ KIND ?= all
 BIN := .venv/bin
 # What a person gives: recipes read it from their environment, "$$FILE", as it is. Written into a recipe as $(FILE) a quote
 # or a $(...) in it would be run by the shell, and a $(...) by make.
-GIVEN := PYTHON CORES IN FILE POSITIONS JOIN SHEET ROBOT NAME HEADER DELIMITER ANSWER WRITE PORT KEEP NOTIFY AT KIND
+GIVEN := PYTHON CORES IN FILE POSITIONS JOIN SHEET ROBOT MORE NAME HEADER DELIMITER ANSWER WRITE PORT KEEP NOTIFY AT KIND
 $(foreach name,$(GIVEN),$(eval override $(name) := $$(value $(name))))
 export $(GIVEN)
 export MLFLOW_DISABLE_TELEMETRY := true
@@ -39,8 +39,9 @@ help:
 	  { text = "" }' Makefile
 
 # The whole pipeline: what is not up to date is made, and nothing else. ROBOT: one entry of datasets.yaml, and no other.
+# MORE: a file that overrides the configuration key by key, such as config/few_trials.yaml.
 run: .venv/installed
-	$(BIN)/snakemake --cores "$$CORES" $${ROBOT:+--config datasets="[$$ROBOT]"}
+	$(BIN)/snakemake --cores "$$CORES" $${ROBOT:+--config datasets="[$$ROBOT]"} $${MORE:+--configfile "$$MORE"}
 
 # A first look at everything, in a folder and a store of its own: one robot, few models, few trials.
 demo: .venv/installed

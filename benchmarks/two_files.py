@@ -4,9 +4,9 @@
 
 Makes up an arm of three markers that lags behind its commands, as OptiTrack Motive would export it at 120 Hz, some
 markers lost for stretches of frames, and the log of a controller whose clock ticks unevenly. Then it does what `make
-new-robot FILE=commands.csv POSITIONS=take.csv WRITE=1` and `make run ROBOT=commands` do, with few trials, up to the
-calibrated model; with `--all` up to the report. No file is edited between the two. Prints wall and CPU seconds and the
-largest memory of each. The exit status is 1 where both take longer than `--minutes`, or one fails.
+new-robot FILE=commands.csv POSITIONS=take.csv WRITE=1` and `make run ROBOT=commands MORE=config/few_trials.yaml` do, up
+to the calibrated model; with `--all` up to the report. No file is edited between the two. Prints wall and CPU seconds
+and the largest memory of each. The exit status is 1 where both take longer than `--minutes`, or one fails.
 """
 
 from __future__ import annotations
@@ -18,7 +18,6 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-import yaml
 
 from benchmarks.measured_run import HOUSE, measured_run, snakemake
 from softkin.core.geometry.constant_curvature import from_arcs
@@ -31,7 +30,7 @@ NOISE_MM = 0.15
 LAG, WANDERING = 0.05, 2.0
 #: Share of the frames in which the last marker is lost, in stretches of this many.
 LOST, STRETCH = 0.01, 20
-TRIALS = {"n_trials": 3, "n_outer_trials": 3, "n_quantile_trials": 3}
+FEW_TRIALS = "config/few_trials.yaml"
 
 
 def recording(n_rows: int) -> tuple[Array, Array]:
@@ -95,14 +94,13 @@ def measure(folder: Path, options: argparse.Namespace) -> bool:
     commands, positions = recording(options.rows)
     write_log(folder / "commands.csv", commands)
     write_take(folder / "take.csv", positions)
-    (folder / "few.yaml").write_text(yaml.safe_dump({"campaign": "two-files", "tuning": TRIALS}))
     target = [] if options.all else ["results/commands/calibrated_model.joblib"]
     steps = {
         "new-robot": [sys.executable, "-m", "softkin.cli.new_robot", "--write", "--", "commands.csv", "take.csv"],
         "run": snakemake(
             folder,
             *(*target, "--cores", str(options.cores), "--quiet", "rules"),
-            *("--config", "datasets=[commands]", "--configfile", "config/datasets.yaml", "few.yaml"),
+            *("--config", "datasets=[commands]", "--configfile", "config/datasets.yaml", FEW_TRIALS),
         ),
     }
     seconds = 0.0

@@ -25,6 +25,7 @@ from softkin.data.readers.joined_tables import JOINS
 
 DATASETS = Path("config") / "datasets.yaml"
 CONFIG = Path("config") / "config.yaml"
+FEW_TRIALS = Path("config") / "few_trials.yaml"
 NAME = re.compile(r"[a-z][a-z0-9_]*")
 
 logger = logging.getLogger("softkin")
@@ -82,6 +83,7 @@ def show_and_write(
     append_entry(DATASETS, name, text)
     print(
         f"Appended to {DATASETS}. It alone is run by:\n\nmake run ROBOT={name}\n\n"
+        f"or, for a first look with few trials:\n\nmake run ROBOT={name} MORE={FEW_TRIALS}\n\n"
         f"with the others, where {CONFIG} has:\n\n"
         f"datasets: [{', '.join([*datasets, name])}]\n",
         file=sys.stderr,
