@@ -20,6 +20,7 @@ if RECORDED:
         threads: 1
         params:
             runs=every_run,
+            max_fit_rows=config["max_fit_rows"],
             confidence_levels=config["confidence_levels"],
             seed=config["seed"],
             code=code_of("score_recorded"),

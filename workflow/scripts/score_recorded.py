@@ -18,7 +18,12 @@ with job(snakemake.log[0], f"score recorded {dataset}", snakemake.output, snakem
         deployed = Run(best["model"], best["preset"])
         records = files_of_runs(files.models, params.runs, "fit.json")
         members = [
-            Member(MODELS[member.model], recorded_settings(read_json(records[member]), params.seed, threads), weight)
+            Member(
+                MODELS[member.model],
+                recorded_settings(read_json(records[member]), params.seed, threads),
+                weight,
+                params.max_fit_rows.get(member.model),
+            )
             for member, weight in members_of(deployed, records[deployed]).items()
         ]
         run = RecordedRun(deployed, members, params.seed, nearest_level(params.confidence_levels))

@@ -47,6 +47,7 @@ from softkin.evaluation.recorded_names import (
 from softkin.models.estimators.memory_features import MEMORIES, NONE
 from softkin.models.estimators.weighted_mean import weighted_mean
 from softkin.models.spec import ModelSpec
+from softkin.training.bounded_rows import some_rows
 from softkin.training.kinematic_model import STATIC, FitSettings, fitted_model
 from softkin.uncertainty.conformal import around, conformal_limits
 from softkin.uncertainty.new_session import zero_spread
@@ -57,11 +58,12 @@ N_POSES, N_DRAWS, N_FOLDS, LATER_SHARE = (5, 10, 20), 200, 5, 0.8
 
 @dataclass(frozen=True, slots=True)
 class Member:
-    """A member of a run: its `spec`, the `settings` of its fit, its `weight`."""
+    """A member of a run: its `spec`, the `settings` of its fit, its `weight`, the rows that it is fitted on at most."""
 
     spec: ModelSpec
     settings: FitSettings
     weight: float
+    max_rows: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,8 +76,8 @@ class RecordedRun:
     confidence_level: float
 
     def fitted(self, samples: Samples) -> Any:
-        """The regressor of this run, fitted on `samples`."""
-        models = [fitted_model(member.spec, member.settings, samples) for member in self.members]
+        """The regressor of this run, fitted on `samples`, or as many of them as a member takes."""
+        models = [fitted_model(m.spec, m.settings, some_rows(samples, m.max_rows, self.seed)) for m in self.members]
         weights, names = [member.weight for member in self.members], [member.spec.name for member in self.members]
         return weighted_mean(models, weights, names)
 

@@ -15,6 +15,7 @@ from softkin.data.table import to_table, write_table
 from softkin.evaluation.recorded_names import COLUMNS
 from softkin.evaluation.score_recorded import Member, Part, RecordedRun, in_time, next_sessions, plain, score_recorded
 from softkin.models import MODELS
+from softkin.training.bounded_rows import some_rows
 from softkin.training.kinematic_model import FitSettings
 from tests.conftest import four_subsets
 from tests.recorded_robot import recorded_arm
@@ -110,3 +111,13 @@ def test_rows_of_all_subsets_come_in_the_order_of_time() -> None:
     together = in_time(list(parts.values()))
     np.testing.assert_array_equal(together.inputs, ROWS.inputs)
     np.testing.assert_array_equal(together.positions, ROWS.positions)
+
+
+def test_a_member_is_fitted_on_as_many_rows_as_it_takes() -> None:
+    settings = FitSettings({}, True, 0, 1, memory={"memory": "none", "zeros": True})
+    bounded, whole = (
+        RecordedRun(Run("lr", "tuned"), [Member(MODELS["lr"], settings, 1.0, most)], 0, 0.9) for most in (60, None)
+    )
+    expected = whole.fitted(some_rows(ROWS, 60, 0)).predict(ROWS.inputs)
+    np.testing.assert_array_equal(bounded.fitted(ROWS).predict(ROWS.inputs), expected)
+    assert np.abs(whole.fitted(ROWS).predict(ROWS.inputs) - expected).max() > 0

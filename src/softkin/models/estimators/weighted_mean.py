@@ -37,8 +37,10 @@ class MeanInSessions(InSessions):
         self.members = members
         self.weights = weights
         self.names = names
-        self.features_, self.sessions_ = members[0].features_, members[0].sessions_
-        self.zeros_ = weighted_sum([member.zeros_ for member in members], weights)
+        # Members that are fitted on some of the rows may lack a short session, which then adds no zero to theirs.
+        self.features_ = members[0].features_
+        self.sessions_ = np.unique(np.concatenate([member.sessions_ for member in members]))
+        self.zeros_ = weighted_sum([member.zeros_of(self.sessions_) for member in members], weights)
 
     def predict(self, X: Array) -> Array:
         """Positions (n_rows, n_coordinates) in mm at inputs, or at bare commands."""

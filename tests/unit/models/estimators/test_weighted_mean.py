@@ -80,3 +80,18 @@ def test_a_member_alone_is_that_itself() -> None:
     assert weighted_mean([line], [1.0], ["lr tuned"]) is line
     assert composition(line) == ""
     assert weighted_sum([array], [1.0]) is array
+
+
+def test_a_member_that_lacks_a_session_adds_no_zero_to_it() -> None:
+    """Of many rows some are drawn for a fit, and a short session may have none of them."""
+    rows = recorded_arm(300, backlash=0.05, zeros_mm=(0.0, 3.0, -1.5))
+    assert rows.recording is not None
+    session = rows.recording.session
+    without = members(rows.take(session != 2))
+    of_members = [without[0], members(rows)[1]]
+    mean = weighted_mean(of_members, WEIGHTS, NAMES)
+    assert mean.sessions_.tolist() == [1, 2, 3]
+    in_second = rows.inputs[session == 2]
+    expected = 0.25 * of_members[0].predict(in_second) + 0.75 * of_members[1].predict(in_second)
+    np.testing.assert_allclose(mean.predict(in_second), expected, rtol=1e-12)
+    np.testing.assert_allclose(mean.zeros_of(np.array([2.0])), 0.75 * of_members[1].zeros_of(np.array([2.0])))
