@@ -9,7 +9,7 @@ from softkin.training.held_out import PartSettings, Robot
 
 files, params, output, tuning = snakemake.input, snakemake.params, snakemake.output, snakemake.params.tuning
 dataset, name = snakemake.wildcards
-kinds = ("model.joblib", "fit.json", "held_out.npz")
+kinds = ("model.joblib", "fit.json", "held_out.npz", "predictions.parquet")
 of_runs = [files_of_runs(files.models, params.runs, kind) for kind in kinds]
 of_presets = map(EnsembleFiles, output.models, output.records, output.predictions, output.parameters, output.trials)
 

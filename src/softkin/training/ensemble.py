@@ -22,25 +22,28 @@ from softkin.core.files import read_json, replacing, write_json
 from softkin.core.job import stopwatch
 from softkin.core.job_records import load_model
 from softkin.core.runs import Run
-from softkin.core.samples import TRAIN, Array
+from softkin.core.samples import SUBSETS, TRAIN, Array
 from softkin.data.table import read_subset
 from softkin.models.ensembles.spec import EnsembleSpec
 from softkin.models.estimators.memory_features import MEMORIES
 from softkin.models.estimators.weighted_mean import weighted_mean, weighted_sum
 from softkin.training.held_out import SCORES, PartSettings, Robot, mean_error, parts_of, read_held_out, truth_of
 from softkin.training.members import Weights, as_records
-from softkin.training.predict import predict
+from softkin.training.predict import predict, stored_positions
 
 logger = logging.getLogger("softkin")
 
 
 @dataclass(frozen=True, slots=True)
 class MemberFiles:
-    """Files of a searched run: the fitted `model`, the `record` of its fit, what it predicts of rows `held_out`."""
+    """Files of a searched run: the fitted `model`, the `record` of its fit, what it predicts of rows `held_out`, its
+    `predictions` of every subset.
+    """
 
     model: Path
     record: Path
     held_out: Path
+    predictions: Path
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,10 +163,26 @@ def fit_ensemble(
         with replacing(of_preset.model) as temporary:
             joblib.dump(estimator, temporary, compress=3)
         microseconds = predict(
-            table, spec=spec, estimator=estimator, threads=threads, predictions=of_preset.predictions
+            table,
+            spec=spec,
+            estimator=estimator,
+            threads=threads,
+            predictions=of_preset.predictions,
+            known=mean_predictions({members[run].predictions: weight for run, weight in best.items()}),
         )
         write_json(of_preset.record, about | sums(records) | {"predict_us_per_row": microseconds})
         logger.info("preset %s: %s", preset, ", ".join(f"{name} {w:.3g}" for name, w in about["params"].items()))
+
+
+def mean_predictions(weights: Mapping[Path, float]) -> dict[str, Array]:
+    """Subset -> the weighted mean (n_rows, n_coordinates) in mm of stored predictions (Parquet), by their weights: to
+    the bit what the mean of the models predicts.
+    """
+    stored = [pd.read_parquet(path) for path in weights]
+    return {
+        subset: weighted_sum([stored_positions(frame, subset) for frame in stored], list(weights.values()))
+        for subset in SUBSETS
+    }
 
 
 def described(weights: Weights, records: Mapping[Run, Mapping[str, Any]]) -> dict[str, Any]:

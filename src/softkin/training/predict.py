@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import statistics
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -50,6 +50,7 @@ def predict(
     estimator: Any,
     threads: int,
     predictions: str | Path,
+    known: Mapping[str, Array] | None = None,
 ) -> float:
     """Write the predictions of every subset; return how many microseconds a row of `test` takes (median of five
     repetitions on at most `TIMED_ROWS` rows).
@@ -62,13 +63,15 @@ def predict(
         predictions: path of the predictions (Parquet: subset, m1_x.. in mm, rows as in `table`). A model with a spread
             has columns for it too, in mm: std_m1_x.. where it is a predictive standard deviation, else spread_m1_x...
             Of more than `SPREAD_ROWS` rows of `train` the others have none.
+        known: subset -> positions (n_rows, n_coordinates) in mm that it predicts, where they are known.
     """
     train = read_subset(table, TRAIN)
     frames = []
     with limited_threads(threads):
         for subset in SUBSETS:
             inputs = (train if subset == TRAIN else read_subset(table, subset)).inputs
-            frames.append(_frame(subset, np.asarray(estimator.predict(inputs))))
+            predicted = estimator.predict(inputs) if known is None else known[subset]
+            frames.append(_frame(subset, np.asarray(predicted)))
             if spec.spread is not None:
                 rows = rows_with_spread(len(inputs)) if subset == TRAIN else np.arange(len(inputs))
                 values = np.full((len(inputs), train.positions.shape[1]), np.nan)
@@ -88,6 +91,11 @@ def _frame(subset: str, positions: Array) -> pd.DataFrame:
     frame = pd.DataFrame(positions, columns=columns)
     frame.insert(0, "subset", subset)
     return frame
+
+
+def stored_positions(stored: pd.DataFrame, subset: str) -> Array:
+    """Predicted positions (n_rows, n_coordinates) in mm of a subset, of predictions as `predict` writes them."""
+    return np.asarray(stored[stored["subset"] == subset].filter(regex=r"^m\d+_[xyz]$").to_numpy())
 
 
 def _microseconds_per_row(estimator: Any, inputs: Array, repeats: int = 5) -> float:

@@ -46,11 +46,13 @@ def members(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[Run, M
     for run, params in RUNS.items():
         place = table.parent / run.model / run.preset
         place.mkdir(parents=True)
-        of_run = MemberFiles(*(place / name for name in ("model.joblib", "fit.json", "held_out.npz")))
+        of_run = MemberFiles(
+            *(place / name for name in ("model.joblib", "fit.json", "held_out.npz", "predictions.parquet"))
+        )
         write_held_out(HeldOut(MODELS[run.model], rows, parts, ROBOT, 0, 1), params, of_run.held_out)
         own = {name: value for name, value in params.items() if name != "target_space"}
         settings = FitSettings(own, True, 0, 1, target_space=params["target_space"])
-        of_fit = FitFiles(of_run.model, of_run.record, place / "predictions.parquet")
+        of_fit = FitFiles(of_run.model, of_run.record, of_run.predictions)
         fit(table, spec=MODELS[run.model], settings=settings, files=of_fit)
         record_job(folder / "results" / "logs" / "fit_model" / "arm" / f"{run.model}_{run.preset}.log", [of_run.model])
         files[run] = of_run
