@@ -13,7 +13,7 @@ import numpy as np
 from softkin.cli import column_kinds
 from softkin.cli.column_kinds import kind_of
 from softkin.cli.guess_orientation import orientation_key, question_of_orientation, rotations
-from softkin.cli.guess_questions import PIXELS, Question, question_of, reasons_left_out, words_of
+from softkin.cli.guess_questions import ASKED, PIXELS, Question, question_of, reasons_left_out, words_of
 from softkin.core.errors import DataError
 from softkin.core.samples import Array
 from softkin.core.units import MM_PER_UNIT
@@ -90,7 +90,8 @@ def guess_entry(
         reasons.append("dimensions: positions of two axes only, so a planar robot")
     used = (*commands, *positions, split_options.get("column"), *when.values(), *turned.get(KEY, {}).get("columns", ()))
     if left_out := [name for name in table.names if name not in used]:
-        reasons.append(f"left out: {reasons_left_out(left_out, looked, {name: kind_of(name) for name in left_out})}")
+        named = {name: ASKED if name in asked_out else kind_of(name) for name in left_out}
+        reasons.append(f"left out: {reasons_left_out(left_out, looked, named)}")
     return entry, reasons
 
 

@@ -28,6 +28,9 @@ SCALES = tuple(scale for unit in (1.0, 10.0, 100.0, 1000.0, 25.4, 2.54, 0.0254) 
 SAME_SCALE = 1e-3
 #: What columns are that say when a row was recorded, or which one it is, by the kind of their words.
 LABELS = {"time": "a time", "group": "a label of rows", "subset": "a label of rows", "ignored": "a label of rows"}
+#: The kind of what a question is about and the answer does not take.
+ASKED = "asked"
+LABELS[ASKED] = "what was asked: the answer takes the other"
 
 
 @dataclass(frozen=True, slots=True)

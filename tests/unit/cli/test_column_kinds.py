@@ -24,6 +24,11 @@ def test_four_columns_of_unit_norm_are_an_orientation() -> None:
     unit = raw / np.linalg.norm(raw, axis=1, keepdims=True)
     assert quaternions(["u", *names], dict(zip(["u", *names], [raw[:, 0], *unit.T], strict=True))) == names
     assert quaternions(names, dict(zip(names, raw.T, strict=True))) == []
+    metres = np.column_stack([np.ones(50), 0.05 * raw[:, :3]])
+    assert np.abs(np.linalg.norm(metres, axis=1) - 1).max() < 0.02
+    assert quaternions(names, dict(zip(names, metres.T, strict=True))) == []
+    about_z = np.column_stack([np.zeros(50), np.zeros(50), np.sin(0.1 * raw[:, 0]), np.cos(0.1 * raw[:, 0])])
+    assert quaternions(names, dict(zip(names, about_z.T, strict=True))) == names
 
 
 def test_three_numbered_columns_of_one_stem() -> None:

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from softkin.cli.guess_entry import asked, guess_entry
-from softkin.cli.guess_questions import question_of, reasons_left_out, words_of
+from softkin.cli.guess_questions import ASKED, question_of, reasons_left_out, words_of
 from tests.conftest import HOUSE
 from tests.unit.cli.tables import columns
 
@@ -66,4 +66,6 @@ def test_columns_of_one_reason_stand_together() -> None:
     table = columns("u1").assign(t=1.0, trial=2.0, odd=3.0)
     said = reasons_left_out(["t", "trial", "odd"], of(table), {"t": "time", "trial": "group", "odd": None})
     assert said == "t (a time); trial (a label of rows); odd (neither a command nor a position, by its name)"
+    answered = reasons_left_out(["odd"], of(table), {"odd": ASKED})
+    assert answered == "odd (what was asked: the answer takes the other)"
     assert words_of("Tip_X-img[px]") == {"tip", "x", "img", "px"}

@@ -18,7 +18,8 @@ _LINES = 20
 
 
 def open_table(path: Path, source: Mapping[str, Any]) -> Table:
-    """The frames; columns are `Frame`, `Time (Seconds)`, and `<marker>_x`, ... or `<body>_rotation_x`, ...
+    """The frames; columns are `Frame`, `Time (Seconds)`, and `<marker>_x`, ..., `<body>_rotation_x`, ... and such as
+    `<body>_Mean Marker Error`.
 
     Raises:
         DataError: its rows of names and axes are not where Motive writes them.
@@ -33,7 +34,7 @@ def open_table(path: Path, source: Mapping[str, Any]) -> Table:
     axes, kinds, called = rows[frame], rows[frame - 1], by_label["Name"]
     middle = {"Rotation": "_rotation", "Position": ""}
     names = axes[:2] + [
-        f"{name}{middle.get(kind, '_' + kind)}_{axis.lower()}"
+        f"{name}{middle.get(kind, '_' + kind)}{'_' * bool(axis)}{axis.lower()}"
         for name, kind, axis in zip(called[2:], kinds[2:], axes[2:], strict=True)
     ]
     header = dict(zip(rows[0][::2], rows[0][1::2], strict=False))

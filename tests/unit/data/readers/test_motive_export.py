@@ -23,3 +23,25 @@ def test_an_export_without_its_header_is_an_error(tmp_path: Path) -> None:
     (tmp_path / "take.csv").write_text("Format Version,1.23\nFrame,Time\n0,0\n")
     with pytest.raises(DataError, match="without its rows of names"):
         open_table(tmp_path / "take.csv", {})
+
+
+def test_columns_of_a_rigid_body_are_named_by_what_they_are(tmp_path: Path) -> None:
+    kinds = ["Rotation"] * 4 + ["Position"] * 3 + ["Mean Marker Error"]
+    rows = [
+        "Format Version,1.23,Length Units,Meters",
+        "",
+        ",Type," + ",".join(["Rigid Body"] * 8),
+        ",Name," + ",".join(["tip"] * 8),
+        ",," + ",".join(kinds),
+        "Frame,Time (Seconds),X,Y,Z,W,X,Y,Z,",
+        "0,0.0,0,0,0,1,0.1,0.2,0.3,0.0001",
+    ]
+    (tmp_path / "take.csv").write_text("\n".join(rows) + "\n")
+    turned = tuple(f"tip_rotation_{axis}" for axis in "xyzw")
+    assert open_table(tmp_path / "take.csv", {}).names[2:] == (
+        *turned,
+        "tip_x",
+        "tip_y",
+        "tip_z",
+        "tip_Mean Marker Error",
+    )
