@@ -6,6 +6,14 @@ from softkin.core.narrowing import groups, name_of, narrowed
 GROUPS = groups(config)
 # The rules that are made for each group.
 GROUPED = ["fit_model", "fit_quantiles", "fit_ensemble", "refit", "calibrate"]
+# The resources that a profile sets for a rule hold for the rule of each group.
+RESOURCES = workflow.resource_settings.overwrite_resources
+for group in GROUPS:
+    for name in GROUPED:
+        if name in RESOURCES:
+            RESOURCES[name_of(name, group)] = RESOURCES[name]
+
+
 # What the dataset of a path may be. Each file is held against these, and there are hundreds of a dataset: a list of a
 # thousand names would be read each time.
 RESERVED = (
