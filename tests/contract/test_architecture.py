@@ -70,13 +70,14 @@ def _imports(tree: ast.AST) -> Iterator[str]:
             yield from (name if name in MODULES else node.module for name in names)
 
 
-def imports_at_run_time(path: Path) -> Iterator[str]:
+@cache
+def imports_at_run_time(path: Path) -> frozenset[str]:
     """Modules that a file imports, but for those inside `if TYPE_CHECKING:`."""
     tree = ast.parse(path.read_text())
     tree.body = [
         node for node in tree.body if not (isinstance(node, ast.If) and "TYPE_CHECKING" in ast.dump(node.test))
     ]
-    return _imports(tree)
+    return frozenset(_imports(tree))
 
 
 def package_of(module: str) -> str | None:
