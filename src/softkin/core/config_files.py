@@ -14,7 +14,7 @@ from softkin.core.errors import ConfigError
 from softkin.core.strict_json import MAX_DEPTH, NotStrictJson, parse_json
 
 #: Reads a large file of datasets ten times faster; PyYAML's own where it was built without libyaml.
-_LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _STANDARD = "tag:yaml.org,2002:"
 _NUMBERS = (f"{_STANDARD}int", f"{_STANDARD}float")
 #: Numbers that YAML 1.1 reads otherwise than people do: octal and sexagesimal ones.
@@ -65,7 +65,7 @@ def _check_yaml(text: str, path: str | Path) -> None:
     try:
         if _is_deep(text):  # composing it would end the process
             raise ConfigError("nested too deeply", where=path, fix="correct the file")
-        top = yaml.compose(text, Loader=_LOADER)
+        top = yaml.compose(text, Loader=LOADER)
     except yaml.MarkedYAMLError as error:
         number = error.problem_mark.line if error.problem_mark else 0
         line = next(iter(text.splitlines()[number : number + 1]), "")
@@ -88,7 +88,7 @@ def _check_yaml(text: str, path: str | Path) -> None:
 
 def _is_deep(text: str) -> bool:
     depth = 0
-    for event in yaml.parse(text, Loader=_LOADER):
+    for event in yaml.parse(text, Loader=LOADER):
         depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
         if depth > MAX_DEPTH:
             return True

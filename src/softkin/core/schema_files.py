@@ -7,6 +7,8 @@ from typing import Any
 
 import yaml
 
+from softkin.core.config_files import LOADER
+
 #: What a file says of itself, and not of the place that refers to it.
 _OF_THE_FILE = ("$schema", "title")
 
@@ -14,7 +16,7 @@ _OF_THE_FILE = ("$schema", "title")
 def read_schema(path: str | Path) -> dict[str, Any]:
     """The YAML schema in a file, with the files beside it that it refers to (`$ref: name.yaml`) in these places."""
     file = Path(path)
-    schema: dict[str, Any] = _complete(yaml.safe_load(file.read_text(encoding="utf-8")), file.parent)
+    schema: dict[str, Any] = _complete(yaml.load(file.read_text(encoding="utf-8"), Loader=LOADER), file.parent)
     return schema
 
 
