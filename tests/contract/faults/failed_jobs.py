@@ -5,7 +5,7 @@ from __future__ import annotations
 from tests.contract.faults.fault import Fault
 
 PLAN = "unit/cli/test_partial_tables.py"
-FAILS = "workflow/test_run.py::test_a_dataset_a_model_and_a_method_that_fail_take_the_tables_of_nothing_else"
+FAILS = "workflow/test_failed_parts.py::test_a_dataset_a_model_and_a_method_that_fail_take_the_tables_of_nothing_else"
 REST = "tables and report of the rest, with a caution that names it; the run counts as failed"
 OF_OTHERS = "tables and report of the other datasets, with a caution that names it; the run counts as failed"
 
