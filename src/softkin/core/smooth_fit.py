@@ -11,8 +11,6 @@ from dataclasses import dataclass
 from math import comb
 
 import numpy as np
-from scipy.linalg import lstsq, pinv
-from sklearn.preprocessing import PolynomialFeatures
 
 from softkin.core.rows import Indices, chunks, sampled_rows
 from softkin.core.samples import CONSTANT_RANGE_MM, Array
@@ -70,6 +68,8 @@ def fit_smoothly(commands: Array, positions: Array, rows: Indices, seed: int = 0
     """The polynomial fitted to `rows` (at most `MAX_ROWS_FITTED` of them, drawn with `seed`) of commands (n_rows,
     n_commands) and positions (n_rows, n_coordinates) in mm.
     """
+    from scipy.linalg import lstsq, pinv
+
     rows = rows[sampled_rows(len(rows), MAX_ROWS_FITTED, seed)]
     x, y = commands[rows], positions[rows]
     centre, half_range = (x.max(axis=0) + x.min(axis=0)) / 2, np.ptp(x, axis=0) / 2
@@ -105,4 +105,6 @@ def degree_for(n_rows: int, n_commands: int) -> int:
 
 
 def _terms(scaled: Array, degree: int) -> Array:
+    from sklearn.preprocessing import PolynomialFeatures
+
     return np.asarray(PolynomialFeatures(degree).fit_transform(scaled))

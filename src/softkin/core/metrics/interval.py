@@ -6,7 +6,6 @@ from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import special, stats
 
 from softkin.core.samples import Array
 
@@ -60,6 +59,8 @@ def coverage_band(n_rows: int, n_calibration: int, rank: int, band: float = 0.95
     The number of covered rows is beta-binomial(n_rows, k, n + 1 - k) when calibration and new rows are exchangeable
     and scores have no ties (Vovk 2012; Angelopoulos and Bates 2023, section 3.2).
     """
+    from scipy import stats
+
     law = stats.betabinom(n_rows, rank, n_calibration + 1 - rank)
     tail = (1.0 - band) / 2
     return float(law.ppf(tail)) / n_rows, float(law.ppf(1.0 - tail)) / n_rows
@@ -68,6 +69,8 @@ def coverage_band(n_rows: int, n_calibration: int, rank: int, band: float = 0.95
 @cache
 def coverage_p_value(n_covered: int, n_rows: int, n_calibration: int, rank: int) -> float:
     """Two-sided exact p-value of this many covered rows, under the beta-binomial distribution of `coverage_band`."""
+    from scipy import stats
+
     law = stats.betabinom(n_rows, rank, n_calibration + 1 - rank)
     return float(min(1.0, 2.0 * min(law.cdf(n_covered), law.sf(n_covered - 1))))
 
@@ -78,6 +81,8 @@ def clopper_pearson(n_covered: int, n_rows: int, band: float = 0.95) -> tuple[fl
 
     Its ends are quantiles of beta distributions; scipy's binomtest searches for them, a thousand times slower.
     """
+    from scipy import special
+
     tail, missed = (1.0 - band) / 2, n_rows - n_covered
     low = special.betaincinv(n_covered, missed + 1, tail) if n_covered else 0.0
     high = special.betaincinv(n_covered + 1, missed, 1.0 - tail) if missed else 1.0

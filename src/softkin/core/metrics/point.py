@@ -10,18 +10,21 @@ from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
-from sklearn import metrics
 
 from softkin.core.samples import Array, measured_coordinates
 
 
 def rmse_mm(true: Array, predicted: Array) -> float:
     """sqrt(mean (x - x_hat)^2) per coordinate, averaged over coordinates (not pooled); mm."""
+    from sklearn import metrics
+
     return float(metrics.root_mean_squared_error(true, predicted))
 
 
 def mae_mm(true: Array, predicted: Array) -> float:
     """Mean |x - x_hat| per coordinate, averaged over coordinates; mm."""
+    from sklearn import metrics
+
     return float(metrics.mean_absolute_error(true, predicted))
 
 
@@ -29,11 +32,15 @@ def r2(true: Array, predicted: Array) -> float:
     """1 - SS_residual / SS_total per coordinate, averaged; of a coordinate that never moves, 1 if predicted exactly,
     else 0 (scikit-learn's definition).
     """
+    from sklearn import metrics
+
     return float(metrics.r2_score(true, predicted))
 
 
 def mape_percent(true: Array, predicted: Array) -> float:
     """100 mean |x - x_hat| / max(|x|, eps) per coordinate, averaged (scikit-learn's definition); percent."""
+    from sklearn import metrics
+
     return 100.0 * float(metrics.mean_absolute_percentage_error(true, predicted))
 
 
