@@ -23,7 +23,7 @@ from softkin.data.table import read_subset
 from softkin.models import MODELS
 from softkin.training.held_out import Robot
 from softkin.training.study import KEPT_PERCENT, StudyFile, TuningSettings
-from softkin.training.tune import SearchSettings, tune_model
+from softkin.training.tune import SearchSettings, held_out_rows, tune_model
 
 HOUSE = Path(__file__).parent.parent
 
@@ -43,17 +43,21 @@ def main() -> None:
     for model in arguments.models:
         for kept in arguments.kept:
             with tempfile.TemporaryDirectory() as folder, patch("softkin.training.study.KEPT_PERCENT", kept):
-                result, _ = tune_model(
+                settings = TuningSettings(tuning["n_trials"], tuning["n_folds"], tuning["max_rows"], seed)
+                search = SearchSettings(
+                    {TUNED: tuning["n_trials"]}, [TUNED], tuning["max_markers"], [], config["target_spaces"]
+                )
+                robot = Robot(base=source.get("base"), standardised_norm=has_standardised_norm(source))
+                held_out = held_out_rows(
+                    train, spec=MODELS[model], robot=robot, settings=settings, search=search, threads=1
+                )
+                result = tune_model(
                     train,
-                    spec=MODELS[model],
+                    held_out=held_out,
                     preset=TUNED,
-                    robot=Robot(base=source.get("base"), standardised_norm=has_standardised_norm(source)),
-                    settings=TuningSettings(tuning["n_trials"], tuning["n_folds"], tuning["max_rows"], seed),
-                    search=SearchSettings(
-                        {TUNED: tuning["n_trials"]}, [TUNED], tuning["max_markers"], [], config["target_spaces"]
-                    ),
+                    settings=settings,
+                    search=search,
                     file=StudyFile(Path(folder) / "study.journal", ""),
-                    threads=1,
                 )
             pruned = (result.trials["state"] == "PRUNED").sum()
             cpu = result.trials["cpu_seconds"].sum()

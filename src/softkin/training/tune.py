@@ -77,35 +77,46 @@ class PresetFiles:
     held_out: str | Path
 
 
-def tune_model(
-    samples: Samples,
-    *,
-    spec: ModelSpec,
-    preset: str,
-    robot: Robot,
-    settings: TuningSettings,
-    search: SearchSettings,
-    file: StudyFile,
-    threads: int,
-) -> tuple[TuningResult, HeldOut]:
-    """The study of a model by the score of `preset`, and what scores its parameters.
+def held_out_rows(
+    samples: Samples, *, spec: ModelSpec, robot: Robot, settings: TuningSettings, search: SearchSettings, threads: int
+) -> HeldOut:
+    """What scores the parameters of all studies of a model: what two of them draw is fitted once.
 
     Parameters:
         samples: rows of `train`.
         spec: the model.
-        preset: whose score is minimised.
         robot: base and command norm.
         settings: folds, rows and seed of a trial.
-        search: number of trials, scores and target spaces.
-        file: where the study lives, and the code that decides it.
+        search: scores, markers and cores.
         threads: threads of a fit at most.
     """
-    spaces = possible_spaces(samples, search.target_spaces, robot)
     wanted = PartSettings(
         settings.n_folds, search.core_shares, settings.max_rows, search.max_markers, search.scores, settings.seed
     )
-    rows, parts = parts_of(samples, wanted, robot)
-    held_out = HeldOut(spec, rows, parts, robot, settings.seed, threads)
+    return HeldOut(spec, *parts_of(samples, wanted, robot), robot, settings.seed, threads)
+
+
+def tune_model(
+    samples: Samples,
+    *,
+    held_out: HeldOut,
+    preset: str,
+    settings: TuningSettings,
+    search: SearchSettings,
+    file: StudyFile,
+) -> TuningResult:
+    """The study of a model by the score of `preset`.
+
+    Parameters:
+        samples: rows of `train`.
+        held_out: what scores parameters of the model, by `held_out_rows`.
+        preset: whose score is minimised.
+        settings: folds, rows and seed of a trial.
+        search: number of trials, scores and target spaces.
+        file: where the study lives, and the code that decides it.
+    """
+    spec, rows, parts, robot = held_out.spec, held_out.rows, held_out.parts, held_out.robot
+    spaces = possible_spaces(samples, search.target_spaces, robot)
     draw = memory_space(lambda n_features: bounded_space(spec, n_features, parts[preset]), rows)
 
     def search_space(trial: Trial) -> Params:
@@ -125,7 +136,7 @@ def tune_model(
         settings=replace(settings, n_trials=search.n_trials[preset]),
         file=file,
     )
-    return simplest(result), held_out
+    return simplest(result)
 
 
 def tune_table(
@@ -152,17 +163,16 @@ def tune_table(
         threads: threads of a fit at most.
     """
     samples = read_subset(table, TRAIN)
+    held_out = held_out_rows(samples, spec=spec, robot=robot, settings=settings, search=search, threads=threads)
     for preset, of_preset in files.items():
         logger.info("preset %s", preset)
-        result, held_out = tune_model(
+        result = tune_model(
             samples,
-            spec=spec,
+            held_out=held_out,
             preset=preset,
-            robot=robot,
             settings=settings,
             search=search,
             file=StudyFile(of_preset.study, code),
-            threads=threads,
         )
         with replacing(of_preset.trials) as temporary:
             result.trials.to_csv(temporary, index=False)

@@ -38,7 +38,7 @@ from softkin.training.study import (
     record,
     run_study,
 )
-from softkin.training.tune import SearchSettings, tune_model
+from softkin.training.tune import SearchSettings, held_out_rows, tune_model
 from tests.conftest import bending_arm
 
 SETTINGS = TuningSettings(n_trials=8, n_folds=3, max_rows=60, seed=3)
@@ -46,17 +46,18 @@ TIMES = ["seconds", "cpu_seconds"]
 
 
 def study(path: Path, model: str = "lasso", tuning: TuningSettings = SETTINGS) -> TuningResult:
-    result, _ = tune_model(
+    robot = Robot(base=None, standardised_norm=False)
+    search = SearchSettings({TUNED: tuning.n_trials}, [TUNED], 2, [0.7], ["cartesian"])
+    return tune_model(
         bending_arm(90),
-        spec=MODELS[model],
+        held_out=held_out_rows(
+            bending_arm(90), spec=MODELS[model], robot=robot, settings=tuning, search=search, threads=1
+        ),
         preset=TUNED,
-        robot=Robot(base=None, standardised_norm=False),
         settings=tuning,
-        search=SearchSettings({TUNED: tuning.n_trials}, [TUNED], 2, [0.7], ["cartesian"]),
+        search=search,
         file=StudyFile(path, code_hash(inspect.getfile(MODELS[model].build))),
-        threads=1,
     )
-    return result
 
 
 def untimed(trials: pd.DataFrame) -> pd.DataFrame:

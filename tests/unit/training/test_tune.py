@@ -14,7 +14,9 @@ from softkin.core.runs import OUTER, TUNED
 from softkin.core.samples import Samples
 from softkin.data.table import to_table, write_table
 from softkin.models import MODELS
+from softkin.models.spec import ModelSpec
 from softkin.training.held_out import SCORES, Robot, read_held_out
+from softkin.training.kinematic_model import FitSettings, fitted_model
 from softkin.training.selection import OBJECTIVES, deployed, searched_runs, selection
 from softkin.training.study import TuningResult, TuningSettings
 from softkin.training.tune import PresetFiles, SearchSettings, other_space, possible_spaces, tune_table
@@ -70,6 +72,19 @@ def test_an_arm_that_bends_in_arcs_gets_curvature_coordinates(tmp_path: Path) ->
         assert 0 <= scores["shell_mae_mm"] < np.inf
     assert by_preset[OUTER]["shell_mae_mm"] <= by_preset[TUNED]["shell_mae_mm"]
     assert by_preset[TUNED]["cv_mae_mm"] <= by_preset[OUTER]["cv_mae_mm"]
+
+
+def test_what_both_studies_draw_is_fitted_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The first four trials of either study are the same; each part of them, of either preset, is fitted once."""
+    fitted: list[tuple[str, int]] = []
+
+    def counted(spec: ModelSpec, settings: FitSettings, samples: Samples) -> Any:
+        fitted.append((f"{settings.params} {settings.target_space}", hash(samples.commands.tobytes())))
+        return fitted_model(spec, settings, samples)
+
+    monkeypatch.setattr("softkin.training.held_out.fitted_model", counted)
+    tuned(bending_arm(80), "lr", tmp_path, n_trials=4)
+    assert len(fitted) == len(set(fitted))
 
 
 def test_parameters_of_many_commands_are_recorded_as_the_smallest_part_has_them(tmp_path: Path) -> None:
