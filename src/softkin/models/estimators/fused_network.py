@@ -8,11 +8,11 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.optimize import minimize
 from sklearn.exceptions import ConvergenceWarning
 from sklearn.neural_network import MLPRegressor
 
 from softkin.core.samples import Array
+from softkin.models.estimators.quick_lbfgs import quick_lbfgs
 
 
 class Activation(NamedTuple):
@@ -153,9 +153,8 @@ class FusedNetwork(MLPRegressor):  # type: ignore[misc]
         start = np.concatenate(
             [np.column_stack([w.T, b]).ravel() for w, b in zip(self.coefs_, self.intercepts_, strict=True)]
         )
-        options = {"maxfun": self.max_fun, "maxiter": self.max_iter, "gtol": self.tol}
         with np.errstate(over="ignore"):  # of exp, where a neuron is saturated
-            optimum = minimize(loss, start, method="L-BFGS-B", jac=True, options=options)
+            optimum = quick_lbfgs(loss, start, max_iter=self.max_iter, tolerance=self.tol, max_calls=self.max_fun)
         if optimum.status:
             warnings.warn(f"L-BFGS stopped: {optimum.message}", ConvergenceWarning, stacklevel=2)
         self.n_iter_, self.loss_ = optimum.nit, optimum.fun

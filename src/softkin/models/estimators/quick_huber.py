@@ -7,11 +7,11 @@ from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import minimize
 from sklearn.exceptions import ConvergenceWarning
 from sklearn.linear_model import HuberRegressor
 
 from softkin.core.samples import Array
+from softkin.models.estimators.quick_lbfgs import quick_lbfgs
 
 #: The scale is positive: it is bounded by this many times the spacing of numbers at 1, as in scikit-learn.
 LEAST_SCALE = 10 * float(np.finfo(np.float64).eps)
@@ -74,11 +74,10 @@ class QuickHuber(HuberRegressor):  # type: ignore[misc]
             return self._of_scikit_learn(X, y, sample_weight)
         start = np.zeros(X.shape[1] + 2)
         start[-1] = 1
-        bounds = np.tile([-np.inf, np.inf], (len(start), 1))
-        bounds[-1][0] = LEAST_SCALE
+        least = np.full(len(start), -np.inf)
+        least[-1] = LEAST_SCALE
         loss = HuberLoss(X, y, epsilon=self.epsilon, alpha=self.alpha)
-        options = {"maxiter": self.max_iter, "gtol": self.tol}
-        optimum = minimize(loss, start, method="L-BFGS-B", jac=True, options=options, bounds=bounds)
+        optimum = quick_lbfgs(loss, start, max_iter=self.max_iter, tolerance=self.tol, least=least)
         if optimum.status == 2:  # scikit-learn comes to the same end, and says why
             return self._of_scikit_learn(X, y, None)
         if optimum.status:
