@@ -11,6 +11,7 @@ import hashlib
 import json
 import logging
 import math
+import tempfile
 import time
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -18,7 +19,8 @@ from pathlib import Path
 from typing import Any
 
 from mlflow import MlflowClient
-from mlflow.entities import DatasetInput, Metric, Param, Run
+from mlflow.entities import DatasetInput, Metric, Param, Run, RunTag
+from mlflow.store.artifact.artifact_repository_registry import get_artifact_repository
 
 from softkin.tracking.artifacts import are_there
 from softkin.tracking.store import PARENT
@@ -102,12 +104,11 @@ def put(client: MlflowClient, experiment: str, record: Record, there: Sequence[R
         if PARENT in record.tags and run.data.tags.get(PARENT) != record.tags[PARENT]:
             client.set_tag(run_id, PARENT, record.tags[PARENT])
         if not are_there(client, run, *record.artifacts()):
-            log_artifacts(client, run_id, record)
+            log_artifacts(client, run, record)
         _supersede(client, [other for other in old if other is not run], by=run_id)
         return run_id
-    run_id = _create(client, experiment, record)
     last = {CONTENT: record.hash, CURRENT: YES} | ({SUPERSEDES: str(old[0].info.run_id)} if old else {})
-    set_tags(client, run_id, last)
+    run_id = _create(client, experiment, record, last)
     # Its end comes last: a run that was cut off is still running, and is swept by the next process.
     client.set_terminated(run_id, end_time=record.started + int(1000 * record.seconds))
     _supersede(client, old, by=run_id)
@@ -121,7 +122,7 @@ def update(client: MlflowClient, experiment: str, record: Record) -> str:
         return put(client, experiment, record, [])
     run, run_id = there[0], str(there[0].info.run_id)
     if run.data.tags.get(CONTENT) != record.hash or not are_there(client, run, *record.artifacts()):
-        log_artifacts(client, run_id, record)
+        log_artifacts(client, run, record)
         if record.inputs:
             client.log_inputs(run_id, list(record.inputs))
         set_tags(client, run_id, {**record.tags, CONTENT: record.hash})
@@ -166,9 +167,12 @@ def all_pages(search: Callable[..., Any], *wanted: Any) -> Iterator[Any]:
 
 
 def set_tags(client: MlflowClient, run_id: str, tags: Mapping[str, str]) -> None:
-    """Set tags of a run, in one call to the store each."""
-    for name, value in tags.items():
-        client.set_tag(run_id, name, value)
+    """Set tags of a run, in one call to the store."""
+    client.log_batch(run_id, tags=_tags(tags))
+
+
+def _tags(tags: Mapping[str, str]) -> list[RunTag]:
+    return [RunTag(name, value) for name, value in tags.items()]
 
 
 def log_points(client: MlflowClient, run_id: str, points: Sequence[Metric]) -> None:
@@ -177,29 +181,36 @@ def log_points(client: MlflowClient, run_id: str, points: Sequence[Metric]) -> N
         client.log_batch(run_id, metrics=points[start : start + BATCH])
 
 
-def log_artifacts(client: MlflowClient, run_id: str, record: Record) -> None:
-    """Log the artifacts of a record; those that are there are replaced."""
+def log_artifacts(client: MlflowClient, run: Run, record: Record) -> None:
+    """Log the artifacts of a record; those that are there are replaced.
+
+    They go where the run says: each call of the client would ask the store for the run again.
+    """
+    repository = get_artifact_repository(run.info.artifact_uri, tracking_uri=client.tracking_uri)
     for file in record.files:
-        client.log_artifact(run_id, file)
+        repository.log_artifact(file)
     for file in record.figures:
-        client.log_artifact(run_id, file, "figures")
-    for name, text in record.texts.items():
-        client.log_text(run_id, text, name)
+        repository.log_artifact(file, "figures")
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in record.texts.items():
+            written = Path(folder, name)
+            written.write_text(text, encoding="utf-8", newline="")
+            repository.log_artifact(str(written))
 
 
-def _create(client: MlflowClient, experiment: str, record: Record) -> str:
-    """A new run with all that the record shows but its content; return its id."""
+def _create(client: MlflowClient, experiment: str, record: Record, last: Mapping[str, str]) -> str:
+    """A new run with all that the record shows, and last its metrics and params with the tags `last`; return its id."""
     tags = {KEY: record.key, **record.tags, **infinite_of(record.metrics), CURRENT: NO}
-    run_id = str(client.create_run(experiment, record.started, tags, record.name).info.run_id)
-    now = int(time.time() * 1000)
+    run = client.create_run(experiment, record.started, tags, record.name)
+    run_id, now = str(run.info.run_id), int(time.time() * 1000)
+    if record.inputs:
+        client.log_inputs(run_id, list(record.inputs))
+    log_artifacts(client, run, record)
     points = [(name, 0, value) for name, value in record.metrics.items()] + [*record.curves]
     metrics = [Metric(name, value, now, step) for name, step, value in points if math.isfinite(value)]
     params = [Param(name, str(value)) for name, value in record.params.items()]
-    client.log_batch(run_id, metrics=metrics[:BATCH], params=params)
     log_points(client, run_id, metrics[BATCH:])
-    if record.inputs:
-        client.log_inputs(run_id, list(record.inputs))
-    log_artifacts(client, run_id, record)
+    client.log_batch(run_id, metrics=metrics[:BATCH], params=params, tags=_tags(last))
     return run_id
 
 
