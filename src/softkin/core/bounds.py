@@ -31,9 +31,12 @@ def bounds_levels(frame: pd.DataFrame) -> list[float]:
 
 def read_bounds(frame: pd.DataFrame, subset: str, confidence_levels: Sequence[float]) -> Array:
     """Bounds (n_levels, n_rows, n_coordinates, 2) in mm of one subset, out of tables made by `bounds_frame`."""
+    columns = [name for name in frame.columns if name.startswith(("lower_", "upper_"))]
+    is_upper = np.array([name.startswith("upper_") for name in columns], dtype=bool)
+    of_subset = (frame["subset"] == subset).to_numpy(dtype=bool)
+    numbers, level_of_row = frame[columns].to_numpy()[of_subset], frame["confidence_level"].to_numpy()[of_subset]
     levels = []
     for level in confidence_levels:
-        rows = frame[(frame["subset"] == subset) & (frame["confidence_level"] == level)]
-        lower, upper = (rows.filter(regex=f"^{bound}_").to_numpy() for bound in ("lower", "upper"))
-        levels.append(np.stack([lower, upper], axis=-1))
+        rows = numbers[level_of_row == level]
+        levels.append(np.stack([rows[:, ~is_upper], rows[:, is_upper]], axis=-1))
     return np.stack(levels)

@@ -57,7 +57,7 @@ def conditional_coverage(
     moving = informative_coordinates(train.positions)
     rows: list[dict[str, Any]] = []
     for method, path in intervals.items():
-        stored = pd.read_parquet(path)
+        stored = pd.read_parquet(path, filters=[("subset", "==", TEST), ("confidence_level", "==", level)])
         for (model, preset), of_run in stored.groupby(["model", "preset"], sort=False):
             if (model, preset) not in shown:
                 continue

@@ -98,7 +98,8 @@ def score_extrapolation(
     samples = {subset: read_subset(table, subset) for subset in SUBSETS}
     norm = command_norm(samples[TRAIN].commands, standardised=standardised_norm).of
     gross = gross_rows(samples)
-    stored = {name: pd.read_parquet(path) for name, path in methods.intervals.items()}
+    of_runs = [[("model", "==", run.model), ("preset", "==", run.preset)] for run in runs] or None
+    stored = {name: pd.read_parquet(path, filters=of_runs) for name, path in methods.intervals.items()}
     rows: list[dict[str, Any]] = []
     for run in runs:
         for scored in _scored_runs(run, pd.read_parquet(predictions[run]), samples, gross, norm):

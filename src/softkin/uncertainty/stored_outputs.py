@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -204,5 +205,6 @@ def norm_of(archive: RunArchive) -> Callable[[Array], Array]:
 
 def predicted_rows(stored: pd.DataFrame, subsets: Sequence[str], prefix: str = "") -> Array:
     """Predicted positions, or spreads with a `prefix`, (n_rows, n_coordinates), subset by subset."""
-    parts = [stored[stored["subset"] == subset].filter(regex=rf"^{prefix}m\d+_[xyz]$") for subset in subsets]
-    return np.concatenate([part.to_numpy() for part in parts])
+    wanted = re.compile(rf"{prefix}m\d+_[xyz]")
+    positions = stored[[name for name in stored.columns if wanted.fullmatch(name)]]
+    return np.concatenate([positions[stored["subset"] == subset].to_numpy() for subset in subsets])
