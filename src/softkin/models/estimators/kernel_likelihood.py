@@ -56,8 +56,10 @@ class Likelihood:
         solved = cho_solve((lower, True), self.y, check_finite=False)
         value = 0.5 * np.vdot(self.y, solved)
         value += n_coordinates * (np.log(np.diag(lower)).sum() + 0.5 * n_rows * np.log(2 * np.pi))
-        inverse, _ = dpotri(lower, lower=True)
-        inverse = np.tril(inverse) + np.tril(inverse, -1).T
+        inverse, _ = dpotri(lower, lower=True)  # and zeros above the diagonal
+        diagonal = np.diag(inverse).copy()
+        inverse = inverse + inverse.T
+        np.fill_diagonal(inverse, diagonal)
         weights = solved @ solved.T - n_coordinates * inverse
         slopes = [term.derivatives(weights) for term in self.terms]
         return float(value), -0.5 * np.concatenate([*slopes, [noise * np.trace(weights)]])
