@@ -36,10 +36,9 @@ Many commands at once, in ms:
 """
 FOOT = """
 `outside` differs between model and exports on {differs} of these commands. *One row against many* is how far the
-model's own answer to one command is from its answer to the same command among many, which scikit-learn sums: a Gaussian
-process of a nearly noiseless robot weighs its rows with large numbers of either sign, and no export can be nearer to
-its sums. One command and exports are answered from an expansion that does not cancel:
-[0040](decisions/0040-kernels-whose-weights-cancel-are-expanded.md).
+model's own answer to one command is from its answer to the same command among many. A Gaussian process of a nearly
+noiseless robot weighs its rows with large numbers of either sign; it is answered from an expansion that does not
+cancel, and exports are: [0040](decisions/0040-kernels-whose-weights-cancel-are-expanded.md).
 """
 
 

@@ -41,7 +41,13 @@ class Beyond:
         they are known.
         """
         norms = np.asarray(self.norm(commands)) if norms is None else norms
-        return np.asarray(self.surroundings.are_far(commands) | (norms > self.radius)), norms
+        outside = np.asarray(norms > self.radius)
+        within = np.flatnonzero(~outside)
+        if len(within) == len(outside):
+            outside = self.surroundings.are_far(commands)
+        elif len(within):
+            outside[within] = self.surroundings.are_far(commands[within])
+        return outside, norms
 
     def half_widths(self, commands: Array, levels: Levels) -> Array:
         """Half-widths (n_levels, n_rows, n_coordinates) in mm that commands (n_rows, n_commands) have where they lie in

@@ -15,6 +15,7 @@ from scipy.linalg.blas import dtrsv
 from softkin.core.errors import ConfigError
 from softkin.core.samples import Array
 from softkin.models.plain.kernels import Node
+from softkin.models.plain.parts import is_expanded, is_quick
 from softkin.training.predict import spread_of
 from softkin.uncertainty.beyond import Beyond
 from softkin.uncertainty.calibration_data import SpreadCalibration
@@ -38,7 +39,8 @@ class Prepared:
     """The positions that the estimator of a calibrated `robot` predicts, and the bounds that its method and
     `in_domain_and_extrapolation` give, without fitting anything for each command.
 
-    One row is answered from plain numbers, many are handed to the estimator: the same but for the order of sums.
+    One row is answered from plain numbers, and so are many where that is quicker or more exact; else these are handed
+    to the estimator: the same but for the order of sums.
     """
 
     def __init__(self, robot: Any) -> None:
@@ -49,7 +51,7 @@ class Prepared:
 
     def predicted(self, inputs: Array) -> Array:
         """Positions (n_rows, n_coordinates) in mm at inputs that are checked."""
-        if len(inputs) == 1 and self.plain.members:
+        if self.plain.members and (len(inputs) == 1 or self.is_plain):
             return self._placed(inputs)[0].copy()
         predicted = np.asarray(self.robot.estimator.predict(inputs))
         return predicted if self.robot.recalibration is None else predicted + self.robot.recalibration.zero
@@ -87,6 +89,15 @@ class Prepared:
     def is_scaled(self) -> bool:
         """Whether in-domain bounds are known in plain numbers."""
         return self.robot.recalibration is not None or self.robot.method.scaled is not None
+
+    @cached_property
+    def is_plain(self) -> bool:
+        """Whether many rows, too, are answered from plain numbers: polynomials, kernels that are expanded, and where
+        spreads are made from the same kernel.
+        """
+        members = [member["regressor"] for member in self.numbers["members"]]
+        has_spread = self.numbers["difficulty"]["kind"] == "spread"
+        return has_spread or any(map(is_expanded, members)) or all(map(is_quick, members))
 
     @cached_property
     def plain(self) -> PlainRobot:
@@ -149,16 +160,20 @@ class Prepared:
     def _spread(self, inputs: Array) -> Array:
         """Spread (n_rows, n_coordinates) in mm of the estimator."""
         found = self._placed(inputs)[1] if self.plain.members else None
+        if len(inputs) > 1:
+            self._last = None  # many rows are kept no longer than between positions and bounds
         return spread_of(self.robot.spec, self.robot.estimator, self.robot.train, inputs) if found is None else found
 
     def _place(self, commands: Array) -> tuple[NDArray[np.bool_], Array]:
-        """As `Beyond.place`; the norm of one command from plain numbers."""
-        is_plain = len(commands) == 1 and "centre" in self.plain.surroundings
+        """As `Beyond.place`; norms from plain numbers, where they are known."""
+        is_plain = "centre" in self.plain.surroundings
         return self.beyond.place(commands, self.plain.norms(commands) if is_plain else None)
 
     def _placed(self, inputs: Array) -> tuple[Array, Array | None]:
-        """Positions and spreads from plain numbers; those of the last row are kept."""
-        if len(inputs) > 1:
+        """Positions and spreads from plain numbers; those of the last inputs are kept, of many where they have a
+        spread, which bounds then need.
+        """
+        if len(inputs) > 1 and self.plain.difficulty["kind"] != "spread":
             return self.plain.placed(inputs)
         key = inputs.tobytes()
         last = self._last

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,11 +11,10 @@ from sklearn.neighbors import KDTree, NearestNeighbors
 from sklearn.preprocessing import StandardScaler
 
 from softkin.core.samples import Array
+from softkin.uncertainty.cells import FAR, UNKNOWN, Grid, grid_of
 
 #: With more commands than this scikit-learn searches neighbours without a tree.
 MOST_TREE_COMMANDS = 15
-#: Cells of the grid at most. More commands than a few have more.
-MOST_CELLS = 1_000_000
 #: One row is compared with all points where there are no more: a call of the tree takes longer.
 MOST_POINTS = 10_000
 #: Fewer rows are searched for in the tree at once.
@@ -39,7 +39,6 @@ class Surroundings:
             tree = KDTree(self.points, leaf_size=30)
             self._nearest = lambda rows: tree.query(rows, k=1)[0][:, 0]
         self.columns = np.ascontiguousarray(self.points.T)
-        self._make_cells()
 
     def are_far(self, commands: Array) -> NDArray[np.bool_]:
         """Which commands (n_rows, n_commands) are farther from their nearest point than `gap`, (n_rows,)."""
@@ -48,30 +47,15 @@ class Surroundings:
             apart = self.columns - rows[0][:, None]
             apart *= apart
             return np.asarray(np.sqrt(np.add.reduce(apart).min(keepdims=True)) > self.gap)
-        if self.cells is None or len(rows) < FEWEST_ROWS:
+        if len(rows) < FEWEST_ROWS or self.grid is None:
             return np.asarray(self._nearest(rows) > self.gap)
-        unknown = np.flatnonzero(~self._stand_in_cells(rows))
-        result = np.zeros(len(rows), dtype=bool)
+        told = self.grid.told(rows)
+        result, unknown = told == FAR, np.flatnonzero(told == UNKNOWN)
         if len(unknown):
             result[unknown] = self._nearest(rows[unknown]) > self.gap
-        return result
+        return np.asarray(result)
 
-    def _make_cells(self) -> None:
-        """Cells whose diagonal is just shorter than `gap`: what stands in one with a point is not far."""
-        n_commands = self.points.shape[1]
-        self.low, self.side = self.points.min(axis=0), self.gap / np.sqrt(n_commands) * (1 - 1e-9)
-        self.cells: NDArray[np.bool_] | None = None
-        if self.side == 0:
-            return
-        shape = np.floor(np.ptp(self.points, axis=0) / self.side) + 1
-        if shape.prod() <= MOST_CELLS:
-            self.cells = np.zeros(shape.astype(np.intp), dtype=bool)
-            self.cells[tuple(np.floor((self.points - self.low) / self.side).astype(np.intp).T)] = True
-
-    def _stand_in_cells(self, rows: Array) -> NDArray[np.bool_]:
-        """Which rows (n_rows,) stand in the cell of a point."""
-        assert self.cells is not None
-        places = np.floor((rows - self.low) / self.side)
-        inside = ((places >= 0) & (places < self.cells.shape)).all(axis=1)
-        places[~inside] = 0
-        return np.asarray(inside & self.cells[tuple(places.astype(np.intp).T)])
+    @cached_property
+    def grid(self) -> Grid | None:
+        """Cells that tell near rows from far ones without a search; None where there would be too many."""
+        return grid_of(self.points, self.gap, self._nearest)

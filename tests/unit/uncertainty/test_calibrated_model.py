@@ -20,6 +20,7 @@ from softkin.training.kinematic_model import FitSettings, fitted_model
 from softkin.uncertainty.build_calibrated_model import build_calibrated_model
 from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.intervals import INTERVAL_METHODS
+from softkin.uncertainty.prepared import Prepared
 from softkin.uncertainty.stored_outputs import StoredOutputs
 from tests.conftest import bending_arm
 
@@ -137,13 +138,13 @@ def test_a_quantile_regressor_gives_way_to_the_next_best(files: Path) -> None:
 def test_what_never_changes_is_computed_once(files: Path, method: str, monkeypatch: pytest.MonkeyPatch) -> None:
     robot = built(files, method)
     predicted_rows: list[int] = []
-    predict = type(robot.estimator).predict
+    predict = Prepared.predicted
 
-    def counted(estimator: Any, rows: Array) -> Array:
+    def counted(prepared: Prepared, rows: Array) -> Array:
         predicted_rows.append(len(rows))
-        return np.asarray(predict(estimator, rows))
+        return predict(prepared, rows)
 
-    monkeypatch.setattr(type(robot.estimator), "predict", counted)
+    monkeypatch.setattr(Prepared, "predicted", counted)
     new = bending_arm(7, n_markers=2, seed=9)
     robot.intervals(new.commands, [0.9])
     robot.box(0.9)

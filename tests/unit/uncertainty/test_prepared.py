@@ -7,14 +7,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from softkin.core.samples import Array
 from softkin.core.shells import command_norm
 from softkin.training.predict import spread_of
 from softkin.uncertainty import beyond, error_growth
 from softkin.uncertainty.calibrated_model import CalibratedModel
 from softkin.uncertainty.calibration_data import ShellCalibration, SpreadCalibration
-from softkin.uncertainty.intervals import in_domain_and_extrapolation
+from softkin.uncertainty.intervals import INTERVAL_METHODS, in_domain_and_extrapolation
 from softkin.uncertainty.promise import Promise, promised
 from tests.conftest import bending_arm
+from tests.exported_robots import noiseless, small
 from tests.unit.tracking.robots import robot as gaussian_process
 from tests.unit.tracking.robots import with_shells
 from tests.unit.uncertainty.small_robot import small_robot
@@ -78,6 +80,35 @@ def test_few_rows_are_predicted_as_many_are(name: str) -> None:
     robot = ROBOTS[name]
     few = robot._prepared.predicted_of_few(NEW[:4])
     np.testing.assert_allclose(few, robot.estimator.predict(NEW[:4]), rtol=0, atol=1e-9)
+
+
+def test_many_rows_of_kernels_that_cancel_are_answered_as_one_row_is() -> None:
+    robot = noiseless()
+    assert robot._prepared.is_plain
+    many, one = np.asarray(robot.intervals(NEW, 0.9)), np.stack([robot.intervals(row, 0.9)[0] for row in NEW[:60]])
+    np.testing.assert_allclose(many[:60], one, rtol=0, atol=1e-10)
+
+
+def test_many_rows_of_trees_and_networks_are_handed_to_the_estimator() -> None:
+    assert small("ridge")._prepared.is_plain
+    for name in ("xgb", "mlp"):
+        robot = replace(small(name), method=INTERVAL_METHODS["scp_crepes"])
+        assert not robot._prepared.is_plain
+        np.testing.assert_array_equal(robot.predict(NEW), robot.estimator.predict(NEW))
+
+
+def test_spreads_of_many_rows_are_kept_no_longer_than_a_call(monkeypatch: pytest.MonkeyPatch) -> None:
+    robot = replace(ROBOTS["scp_spread"])
+    placed, calls = robot._prepared.plain.placed, list[int]()
+
+    def counted(inputs: Array) -> tuple[Array, Array | None]:
+        calls.append(len(inputs))
+        return placed(inputs)
+
+    monkeypatch.setattr(robot._prepared.plain, "placed", counted)
+    first, second = robot.intervals(NEW, 0.9), robot.intervals(NEW, 0.9)
+    np.testing.assert_array_equal(first, second)
+    assert calls == [len(NEW), len(NEW)]
 
 
 def test_nothing_is_fitted_twice(monkeypatch: pytest.MonkeyPatch) -> None:

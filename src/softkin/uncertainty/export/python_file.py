@@ -11,7 +11,7 @@ from typing import Any
 
 from softkin import __version__
 from softkin.core.geometry import constant_curvature
-from softkin.models.plain import evaluate, expansion, kernels, leaves, spaces
+from softkin.models.plain import evaluate, expansion, kernels, leaves, spaces, terms
 from softkin.uncertainty.export import face
 from softkin.uncertainty.export.numbers import LEVELS, exported_numbers
 from softkin.uncertainty.plain import may_fail, members, near_errors
@@ -29,6 +29,7 @@ MODULES: tuple[ModuleType, ...] = (
     kernels,
     expansion,
     leaves,
+    terms,
     evaluate,
     spaces,
     members,

@@ -13,6 +13,8 @@ from softkin.uncertainty.plain.near_errors import near_errors, of_one_command
 Mask = np.ndarray[Any, np.dtype[np.bool_]]
 #: Distances between commands that are held at a time.
 DISTANCES_AT_ONCE = 4_000_000
+#: So many numbers in a row numpy no longer adds one after the other.
+SUMMED_IN_TURN = 8
 
 
 class PlainRobot:
@@ -29,7 +31,7 @@ class PlainRobot:
         if self.growths:
             names = ("floor", "slope", "bend", "steepest", "reach")
             parts = ([np.atleast_1d(growth[name]) for growth in self.growths] for name in names)
-            self.grown = [np.stack(part)[:, None] for part in parts]
+            self.grown = [np.stack(part)[..., None] for part in parts]
         if self.difficulty["kind"] == "distance":
             self.neighbours = self.difficulty["points"].T.copy()
         if self.difficulty["kind"] == "held_out":
@@ -60,7 +62,13 @@ class PlainRobot:
         places = self.surroundings
         varying = commands if len(places["varies"]) == commands.shape[1] else commands[:, places["varies"]]
         parts = (varying - places["centre"]) / places["norm_scale"]
-        return np.asarray(np.sqrt((parts * parts).sum(axis=1)))
+        parts *= parts
+        if not 0 < parts.shape[1] < SUMMED_IN_TURN:
+            return np.asarray(np.sqrt(parts.sum(axis=1)))
+        squares = parts[:, 0].copy()  # the same sums, which along rows of few numbers are slow
+        for place in range(1, parts.shape[1]):
+            squares += parts[:, place]
+        return np.asarray(np.sqrt(squares))
 
     def in_domain(self, inputs: Values, predicted: Values, spread: Values | None, table: Node) -> Values:
         """Bounds (n_levels, n_rows, n_coordinates, 2) in mm around positions `predicted`, as of commands in-domain; a
@@ -73,7 +81,10 @@ class PlainRobot:
             unseen = (self._sessions(inputs)[:, None] != self.memory["sessions"]).all(axis=1)
             zero = table["zero"][:, None] * unseen[:, None]
             sides = np.sign(sides) * np.hypot(sides, zero[..., None])
-        return np.asarray(predicted[..., None] + sides)
+        bounds = np.empty((len(sides), *predicted.shape, 2))
+        for side in (0, 1):  # along the last axis, of two numbers, arrays are added slowly
+            np.add(predicted, sides[..., side], out=bounds[..., side])
+        return bounds
 
     def everywhere(self, bounds: Values, predicted: Values, outside: Mask, norms: Values, table: Node) -> Values:
         """In-domain `bounds`, in which those of commands that lie outside are other ones, where there are shells."""
@@ -85,7 +96,7 @@ class PlainRobot:
         if self.numbers["has_spread"]:
             lower = np.minimum(bounds[..., 0][:, rows], lower)
             upper = np.maximum(bounds[..., 1][:, rows], upper)
-        bounds[:, rows] = np.stack([lower, upper], axis=-1)
+        bounds[..., 0][:, rows], bounds[..., 1][:, rows] = lower, upper
         return bounds
 
     def from_rest(self, commands: Values) -> Values:
@@ -144,15 +155,15 @@ class PlainRobot:
 
     def _widest(self, norms: Values, table: Node) -> Values:
         """Half-widths (n_levels, n_rows, n_coordinates) in mm in extrapolation."""
-        widest = table["limits"][:, None]
+        widest = np.broadcast_to(table["limits"][..., None], (*table["limits"].shape, len(norms)))
         if self.growths:
             floor, slope, bend, steepest, reach = self.grown
-            x = np.log(np.maximum(norms / self.surroundings["radius"], 1.0))[:, None]
+            x = np.log(np.maximum(norms / self.surroundings["radius"], 1.0))
             near = np.minimum(x, reach)
             grown = np.exp(floor + (near * slope + near**2 * bend + (x - near) * steepest))
-            limits = np.stack(table["growth_limits"])[:, :, None]
+            limits = np.stack(table["growth_limits"])[..., None]
             widest = np.maximum(widest, (limits * grown[:, None]).max(axis=0))
-        return np.broadcast_to(widest, (len(widest), len(norms), widest.shape[2]))
+        return np.asarray(widest.transpose(0, 2, 1))
 
 
 def _squared_distances(points: Values, rows: Values) -> Values:

@@ -49,3 +49,29 @@ def test_one_command_is_answered_as_among_many_by_distance_and_by_norm() -> None
         for rows in (NEW[:40], on_grid):
             each = np.vstack([one(row[None]) for row in rows])
             np.testing.assert_allclose(each, near_errors(node, rows), rtol=1e-13)
+
+
+@pytest.mark.parametrize("n_commands", [1, 2, 3])
+def test_rows_cell_by_cell_have_the_nearest_of_all_points(n_commands: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    rng = np.random.default_rng(0)
+    points, errors = rng.uniform(-1, 1, (300, n_commands)).round(1), rng.exponential(1.0, (300, 4))
+    node = {
+        "mean": np.zeros(n_commands),
+        "scale": np.ones(n_commands),
+        "points": points,
+        "errors": errors,
+        "by_norm": np.array([False, True, False, True]),
+        "neighbours": np.array([3, 10, 40, 3]),
+        "shares": np.array([1.0, 0.5, 0.75, 0.0]),
+        "column": np.array([0, 1, 2, 3, -1]),
+        "least": 0.05,
+    }
+    rows = np.vstack(
+        [rng.uniform(-3, 3, (1500, n_commands)), np.repeat(points, 5, axis=0), np.full((1, n_commands), 1e9)]
+    )
+    monkeypatch.setattr(module, "ROWS_OF_A_CELL", len(rows))
+    at_once = near_errors(node, rows)
+    monkeypatch.setattr(module, "ROWS_OF_A_CELL", 20)
+    np.testing.assert_allclose(near_errors(node, rows), at_once, rtol=1e-13)
+    squares = squared_distances(points, rows, False)
+    np.testing.assert_allclose(at_once[:, 0], np.maximum(mean_of_nearest(squares, errors[:, :1], 3)[:, 0], 0.05))
