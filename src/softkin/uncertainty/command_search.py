@@ -1,20 +1,18 @@
-"""The command at which a marker comes nearest to a target: bounded least squares from several starts."""
+"""The commands at which a marker comes nearest to targets: bounded least squares from several starts."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import least_squares
 
 from softkin.core.samples import Array
+from softkin.uncertainty.bounded_squares import Problems
 
-#: Step of finite differences, in units of each command's range: the square root of the precision of doubles is 1.5e-8.
-STEP = 1e-6
-#: Tolerances of least squares, and how often it evaluates the model at most.
-TOLERANCE, MOST_EVALUATIONS = 1e-7, 60
+#: The search from a start ends at this share of the distance that counts as reached.
+CLOSER = 1e-3
 #: Weight of staying near the last command, where commands are redundant; they are when a singular value of the Jacobian
 #: is less than this share of the largest.
 NEARNESS, NO_EFFECT = 1e-3, 1e-4
@@ -44,62 +42,76 @@ class CommandSearch:
     close_mm: float
 
     def nearest(self, target: Array, starts: Iterable[Array], last: Array | None, *, first_wins: bool) -> Array:
-        """The command (n_commands,) that takes the marker nearest to `target` (3,) in mm.
+        """The command (n_commands,) of one target (3,) in mm, as of `nearest_each`."""
+        return np.asarray(self.nearest_each(target[None], [starts], last, first_wins=first_wins)[0])
 
-        The search ends when two starts lead to the same command. Of commands that are equally good one in-domain is
-        taken, and then the nearest to the last.
+    def nearest_each(
+        self, targets: Array, starts: Sequence[Iterable[Array]], last: Array | None, *, first_wins: bool
+    ) -> Array:
+        """The commands (n_targets, n_commands) that take the marker nearest to each of `targets` (n_targets, 3) in mm.
+
+        The search of a target ends when two starts lead to the same command. Of commands that are equally good one
+        in-domain is taken, and then the nearest to the last.
 
         Parameters:
-            starts: commands (n_commands,) to begin from, the most promising first.
+            starts: for each target commands (n_commands,) to begin from, the most promising first.
             last: the command (n_commands,) sent before.
-            first_wins: whether the first start that reaches the target ends the search.
+            first_wins: whether the first start that reaches a target ends its search.
         """
-        found: list[Array] = []
-        residuals: list[float] = []
-        for start in map(self._share, starts):
-            share = self._solved(target, start, None if last is None else self._share(last))
-            agreed = not np.array_equal(share, start) and any(np.linalg.norm(share - one) <= SAME for one in found)
-            found.append(share)
-            residuals.append(self._residual(share, target))
-            if agreed or (first_wins and residuals[-1] <= self.close_mm):
+        near = None if last is None else self._share(last)
+        searches = [_Search(target, map(self._share, own)) for target, own in zip(targets, starts, strict=True)]
+        pending = searches
+        while pending:
+            begun = [(one, start) for one in pending if (start := next(one.starts, None)) is not None]
+            if not begun:
                 break
-        if min(residuals) > self.close_mm and not agreed:
-            share = self._probed(found[int(np.argmin(residuals))], target)
-            found.append(share)
-            residuals.append(self._residual(share, target))
-        good = [share for share, far in zip(found, residuals, strict=True) if far <= min(residuals) + self.close_mm]
+            some = np.array([one.target for one, _ in begun])
+            shares = self._solved(some, np.array([start for _, start in begun]), near)
+            for (one, start), share, far in zip(begun, shares, self._residuals(shares, some), strict=True):
+                one.ends_at(start, share, far)
+            pending = [one for one, _ in begun if not (one.agreed or (first_wins and one.least <= self.close_mm))]
+        return np.array([self._chosen(one, near) for one in searches])
+
+    def _chosen(self, search: _Search, last: Array | None) -> Array:
+        """The command (n_commands,) of all that a search found."""
+        found, residuals = search.found, search.residuals
+        if search.least > self.close_mm and not search.agreed:
+            share = self._probed(found[int(np.argmin(residuals))], search.target)
+            search.ends_at(share, share, float(self._residuals(share[None], search.target[None])[0]))
+        good = [share for share, far in zip(found, residuals, strict=True) if far <= search.least + self.close_mm]
         if len(good) > 1:
             inside = [share for share, out in zip(good, self.is_outside(self._commands(good)), strict=True) if not out]
             good = inside or good
-            before = good[0] if last is None else self._share(last)
+            before = good[0] if last is None else last
             good = sorted(good, key=lambda share: float(np.linalg.norm(share - before)))
         return np.asarray(self._commands(good[:1])[0])
 
-    def _solved(self, target: Array, start: Array, last: Array | None) -> Array:
-        """A local solution from `start`, in shares of the bounds."""
-        if not len(start):
-            return start
-        problem = _Problem(self, target, None)
-        sizes = np.linalg.svd(problem.jacobian(start), compute_uv=False)
-        if not sizes[0] > 0:
-            return start
-        if len(start) <= len(sizes) and sizes[-1] > NO_EFFECT * sizes[0]:
-            return self._fitted(problem, start)
-        # Held near the last command, then near what was found: what the weight costs is gone after the second time.
-        near = self._fitted(_Problem(self, target, start if last is None else last), start)
-        return self._fitted(_Problem(self, target, near), near)
+    def _solved(self, targets: Array, starts: Array, last: Array | None) -> Array:
+        """Local solutions (n_targets, n_free) from `starts`, in shares of the bounds."""
+        if not starts.shape[1]:
+            return starts
+        extent, weights = self.extent_mm, np.zeros(len(starts))
 
-    def _fitted(self, problem: _Problem, start: Array) -> Array:
-        bounds = np.zeros_like(start), np.ones_like(start)
-        tolerances = {"xtol": TOLERANCE, "ftol": TOLERANCE, "gtol": TOLERANCE**1.5}
-        fit = least_squares(
-            problem.residuals, start, problem.jacobian, bounds, "dogbox", max_nfev=MOST_EVALUATIONS, **tolerances
-        )
-        return np.asarray(fit.x)
+        def scaled(shares: Array) -> Array:
+            return self.position(self._commands(shares)) / extent
+
+        problems = Problems(scaled, targets / extent, starts, weights, self.close_mm * CLOSER / extent)
+        known, slopes = problems.with_jacobian(starts, np.arange(len(starts)))
+        sizes = np.linalg.svd(slopes, compute_uv=False)
+        moves = sizes[:, 0] > 0
+        is_redundant = moves & ((starts.shape[1] > sizes.shape[1]) | (sizes[:, -1] <= NO_EFFECT * sizes[:, 0]))
+        # Held near the last command, then near what was found: what the weight costs is gone after the second time.
+        weights[is_redundant] = NEARNESS
+        result, near = starts.copy(), starts if last is None else np.tile(last, (len(starts), 1))
+        first = np.flatnonzero(moves)
+        result[first] = problems.of(first, near).solved(starts[first], (known[first], slopes[first]))
+        again = np.flatnonzero(is_redundant)
+        result[again] = problems.of(again, result).solved(result[again])
+        return result
 
     def _probed(self, share: Array, target: Array) -> Array:
         """From `share` to the nearest of steps along the axes, which halve when none is nearer (Hooke and Jeeves)."""
-        step, best = LARGEST_PROBE, self._residual(share, target)
+        step, best = LARGEST_PROBE, float(self._residuals(share[None], target[None])[0])
         while step > SMALLEST_PROBE and len(share):
             probes = np.clip(np.vstack([share + step * np.eye(len(share)), share - step * np.eye(len(share))]), 0, 1)
             distances = np.linalg.norm(self.position(self._commands(probes)) - target, axis=1)
@@ -110,8 +122,9 @@ class CommandSearch:
                 step /= 2
         return share
 
-    def _residual(self, share: Array, target: Array) -> float:
-        return float(np.linalg.norm(self.position(self._commands([share]))[0] - target))
+    def _residuals(self, shares: Array, targets: Array) -> Array:
+        """How far (n_rows,) in mm shares (n_rows, n_free) take the marker from targets (n_rows, 3)."""
+        return np.asarray(np.linalg.norm(self.position(self._commands(shares)) - targets, axis=1))
 
     def _share(self, command: Array) -> Array:
         """Where a command lies between the bounds, from 0 to 1; of the commands that are free (n_free,)."""
@@ -126,32 +139,21 @@ class CommandSearch:
         return np.clip(commands, self.lower, self.upper)
 
 
-class _Problem:
-    """Residuals in units of the extent, and their derivatives; both of one call of the model, at the last point asked.
+class _Search:
+    """What was found for one target from some of its starts, in shares of the bounds."""
 
-    `last` (n_free,): commands are held near it, with a small weight.
-    """
+    def __init__(self, target: Array, starts: Iterator[Array]) -> None:
+        self.target, self.starts, self.agreed = target, starts, False
+        self.found: list[Array] = []
+        self.residuals: list[float] = []
 
-    def __init__(self, search: CommandSearch, target: Array, last: Array | None) -> None:
-        self.search, self.target, self.last = search, target, last
-        self.at: Array | None = None
-        self.known: tuple[Array, Array] = (target, target)
+    @property
+    def least(self) -> float:
+        return min(self.residuals)
 
-    def residuals(self, share: Array) -> Array:
-        return self._both(share)[0]
-
-    def jacobian(self, share: Array) -> Array:
-        return self._both(share)[1]
-
-    def _both(self, share: Array) -> tuple[Array, Array]:
-        if self.at is not None and np.array_equal(self.at, share):
-            return self.known
-        steps = np.where(share + STEP <= 1, STEP, -STEP)
-        points = self.search.position(self.search._commands(np.vstack([share, share + np.diag(steps)])))
-        residuals = (points[0] - self.target) / self.search.extent_mm
-        jacobian = ((points[1:] - points[0]) / steps[:, None]).T / self.search.extent_mm
-        if self.last is not None:
-            residuals = np.concatenate([residuals, NEARNESS * (share - self.last)])
-            jacobian = np.vstack([jacobian, NEARNESS * np.eye(len(share))])
-        self.at, self.known = share.copy(), (residuals, jacobian)
-        return self.known
+    def ends_at(self, start: Array, share: Array, residual: float) -> None:
+        """A search from `start` ended at `share`, so far from the target in mm."""
+        is_known = any(np.linalg.norm(share - one) <= SAME for one in self.found)
+        self.agreed = not np.array_equal(share, start) and is_known
+        self.found.append(share)
+        self.residuals.append(float(residual))

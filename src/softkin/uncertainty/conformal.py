@@ -34,7 +34,9 @@ def conformal_limit(scores: Array, confidence_level: float) -> float:
 
 def conformal_limits(scores: Array, confidence_levels: Sequence[float]) -> Array:
     """As `conformal_limit`, for each level and column of scores (n_rows, n_columns): (n_levels, n_columns)."""
-    return np.array([[conformal_limit(column, level) for column in scores.T] for level in confidence_levels])
+    ordered, ranks = np.sort(scores, axis=0), [conformal_rank(len(scores), level) for level in confidence_levels]
+    unknown = np.full(scores.shape[1], np.inf)
+    return np.array([unknown if rank is None else ordered[rank - 1] for rank in ranks])
 
 
 def weighted_limits(scores: Array, weights: Array, own: Array, confidence_levels: Sequence[float]) -> Array:

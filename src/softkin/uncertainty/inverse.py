@@ -4,63 +4,31 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from copy import copy
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from softkin.core.errors import ConfigError, DataError
 from softkin.core.rows import sampled_rows
 from softkin.core.samples import Array, command_columns, informative_coordinates
 from softkin.uncertainty import calls
 from softkin.uncertainty.answers import index_of
+from softkin.uncertainty.command_answers import NEAREST, OUTSIDE, REACHABLE, CommandAnswers
 from softkin.uncertainty.command_search import CommandSearch
-from softkin.uncertainty.conformal import conformal_limit
+from softkin.uncertainty.conformal import conformal_limit, conformal_limits
 from softkin.uncertainty.control_loop import State
 from softkin.uncertainty.promise import asked_levels
 from softkin.uncertainty.targets import checked_step, checked_tolerance, marker_of, target_rows
 
-REACHABLE, NEAREST, OUTSIDE = "reachable", "nearest", "outside"
 #: Searches begin at commands of `train` whose poses are nearest, no two of them nearer than this share of the range.
 N_STARTS, LEAST_APART = 4, 0.2
 MAX_ROWS_SEARCHED = 2_000
+#: Answers that are held against all errors of the calibration set at a time.
+ROWS_AT_ONCE = 100
 #: A search ends when the residual is at most this share of the marker's median error, or of how far it moves.
 SHARE_OF_ERROR, SHARE_OF_EXTENT = 0.01, 1e-6
-
-
-@dataclass(frozen=True, eq=False)
-class CommandAnswers:
-    """A command for each target, and where it takes the marker.
-
-    `commands` (n_rows, n_commands). Of the marker, in mm: `positions` (n_rows, 3) that the model predicts, `intervals`
-    (n_rows, 3, 2) at the confidence level, `residual_mm` (n_rows,) from the predicted position to the target;
-    `within_mm` (n_rows,), no farther than which the robot is from the target with that confidence. `probability`
-    (n_rows,): that it is within the `tolerance` that was given; None where none was. `verdict` (n_rows,): `outside`,
-    the command lies in extrapolation, where nothing is promised; else `reachable`, the target is no farther from the
-    predicted position than the robot is with that confidence; else `nearest`, no command was found that gets there.
-    """
-
-    commands: Array
-    positions: Array
-    intervals: Array
-    residual_mm: Array
-    within_mm: Array
-    probability: Array | None
-    verdict: NDArray[np.str_]
-
-    def table(self, command_names: list[str], marker: int, index: pd.Index) -> pd.DataFrame:
-        """The same as a table with columns u1, ..., m1_x, lower_m1_x, upper_m1_x, ..., residual_mm, verdict."""
-        columns: dict[str, Any] = dict(zip(command_names, self.commands.T, strict=True))
-        for axis, name in enumerate("xyz"):
-            columns[f"m{marker + 1}_{name}"] = self.positions[:, axis]
-            columns[f"lower_m{marker + 1}_{name}"] = self.intervals[:, axis, 0]
-            columns[f"upper_m{marker + 1}_{name}"] = self.intervals[:, axis, 1]
-        columns |= {"residual_mm": self.residual_mm, "within_mm": self.within_mm}
-        columns |= {} if self.probability is None else {"probability": self.probability}
-        return pd.DataFrame(columns | {"verdict": self.verdict}, index=index)
 
 
 class Inverse:
@@ -145,18 +113,28 @@ class _Wish:
             raise ConfigError(
                 "max_step without a last command", where=self.robot.dataset, fix="pass the command sent before as last"
             )
-        commands, inputs = [], []
-        for target in self.targets:
+        if in_a_row:
+            commands, inputs = self._along(state, step)
+        else:
             search = self._search(state, step)
-            starts = self._begin_at(target, search, state.last, in_a_row=in_a_row)
-            command = search.nearest(target, starts, state.last, first_wins=in_a_row or state.last is None)
-            commands.append(command)
-            inputs.append((state.inputs(command) if in_a_row else state.next_inputs(command[None]))[0])
-        answers = self._promised(np.array(commands), np.array(inputs))
+            starts = [self._begin_at(target, search, state.last, in_a_row=False) for target in self.targets]
+            commands = search.nearest_each(self.targets, starts, state.last, first_wins=state.last is None)
+            inputs = state.next_inputs(commands)
+        answers = self._promised(commands, inputs)
         if not isinstance(self.asked, (pd.DataFrame, pd.Series)):
             return answers
         names = list(self.robot.names.own_commands) or command_columns(len(self.lower))
         return answers.table(names, self.marker, index_of(self.asked))
+
+    def _along(self, state: State, step: Array | None) -> tuple[Array, Array]:
+        """Commands sent one after the other, and what the model is given at each."""
+        commands, inputs = [], []
+        for target in self.targets:
+            search = self._search(state, step)
+            starts = self._begin_at(target, search, state.last, in_a_row=True)
+            commands.append(search.nearest(target, starts, state.last, first_wins=True))
+            inputs.append(state.inputs(commands[-1])[0])
+        return np.array(commands), np.array(inputs)
 
     def _state(self, last: Any) -> State:
         """Where the robot is when the first command is sent; one that was given is not moved."""
@@ -208,31 +186,34 @@ class _Wish:
 
     def _promised(self, commands: Array, inputs: Array) -> CommandAnswers:
         """The answers: what the errors of the marker on the calibration set promise around each predicted position."""
-        whole = np.asarray(self.robot.predict(inputs))
+        whole = np.asarray(self.robot._prepared.predicted_of_few(inputs))
         intervals = np.asarray(self.robot.intervals(inputs, self.level, whole))[:, self.own]
         regular = self.robot._prepared.bounds(inputs, (self.level,), whole)[0][:, self.own]
         positions = whole[:, self.own]
         off = positions - self.targets
         residual = np.linalg.norm(off, axis=1)
-        within, radius, probability = (np.empty(len(off)) for _ in range(3))
+        within, radius, near = (np.empty(len(off)) for _ in range(3))
         promise = self.robot.joint.promise
         by_block = promise is not None and promise.n_blocks > 1
         (level,) = asked_levels(promise, [self.level])
         n_places = (promise.n_blocks + 1) * promise.n_rows if by_block else len(self.errors) + 1
         regularly = self._stretch(regular, positions, level)
-        for row, stretch in enumerate(self._stretch(intervals, positions, level)):
-            distances = np.linalg.norm(off[row] + self.errors * stretch, axis=1)
-            distances = np.where(np.isfinite(stretch).all(), distances, np.inf)
-            within[row] = conformal_limit(distances, level)
+        stretches = self._stretch(intervals, positions, level)
+        for start in range(0, len(off), ROWS_AT_ONCE):
+            rows = slice(start, start + ROWS_AT_ONCE)
+            distances = np.linalg.norm(off[rows, None] + self.errors * stretches[rows, None], axis=2)
+            distances[~np.isfinite(stretches[rows]).all(axis=1)] = np.inf
+            within[rows] = conformal_limits(distances.T, [level])[0]
             # Where a pose may fail its intervals hold failed poses, which bring no target nearer.
-            radius[row] = conformal_limit(np.linalg.norm(self.errors * regularly[row], axis=1), level)
-            probability[row] = 0.0 if self.tolerance is None else (distances <= self.tolerance).sum() / n_places
+            by_error = np.linalg.norm(self.errors * regularly[rows, None], axis=2)
+            radius[rows] = conformal_limits(by_error.T, [level])[0]
+            near[rows] = 0.0 if self.tolerance is None else (distances <= self.tolerance).sum(axis=1)
         radius = np.where(np.isfinite(radius), radius, 0.0)
         verdict = np.where(residual <= np.maximum(radius, self.close_mm), REACHABLE, NEAREST)
         verdict[np.asarray(self.robot.is_outside(commands))] = OUTSIDE
         return CommandAnswers(
             commands, positions, intervals, residual, within,
-            None if self.tolerance is None else probability, verdict,
+            None if self.tolerance is None else near / n_places, verdict,
         )  # fmt: skip
 
     def _stretch(self, intervals: Array, positions: Array, level: float) -> Array:
