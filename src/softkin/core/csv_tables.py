@@ -25,7 +25,12 @@ def write_csv(path: str | os.PathLike[str], frame: pd.DataFrame) -> None:
 
 def csv_of(frame: pd.DataFrame) -> str:
     """The text that `write_csv` writes."""
-    return str(in_words(frame).to_csv(index=False))
+    return text_of(in_words(frame))
+
+
+def text_of(worded: pd.DataFrame) -> str:
+    """The text that `write_csv` writes of a table, or of rows of one, that is `in_words` already."""
+    return str(worded.to_csv(index=False))
 
 
 def in_words(frame: pd.DataFrame) -> pd.DataFrame:

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from softkin.core.csv_tables import in_words, read_csv
+from softkin.core.csv_tables import in_words, read_csv, text_of
 from softkin.core.samples import TEST
 from softkin.core.units import own_unit, unit_of
 from softkin.tracking.figure_index import content_of, shown_in
@@ -73,7 +73,7 @@ def log_intervals(
     for (model, preset, method), rows in table.groupby(["model", "preset", "run"]):
         parent = parents.get(f"{model}/{preset}", parents["campaign"])
         key = (str(model), str(preset), str(method))
-        text = str(written.loc[rows.index].to_csv(index=False))
+        text = text_of(written.loc[rows.index])
         record = _record(campaign, tags, key, rows, text, parent, shown.get(key, []))
         put(client, experiment, record, there)
         keys.add(record.key)
