@@ -10,6 +10,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from softkin.core.runs import SEARCHED
+
 #: The keys that an entry may narrow, and what they name.
 NARROWED = {
     "models": "models",
@@ -71,12 +73,24 @@ def name_of(rule: str, group: Group) -> str:
 
 
 def problems_of_narrowing(config: Mapping[str, Any]) -> Iterator[str]:
-    """A line for each list in the entry of a configured dataset of which the configuration names nothing."""
+    """A line for each list in the entry of a configured dataset of which the configuration names nothing, and for each
+    that leaves out presets which tables across datasets need.
+    """
     for dataset in config["datasets"]:
+        entry = config["sources"][dataset]
         for key, what in NARROWED.items():
-            own = config["sources"][dataset].get(key, ())
-            if own and not narrowed(config, key, dataset):
+            if key in entry and not narrowed(config, key, dataset):
                 yield (
-                    f"sources.{dataset}.{key}: of {', '.join(own)} none is among the configured {what} "
+                    f"sources.{dataset}.{key}: of {', '.join(entry[key])} none is among the configured {what} "
                     f"({', '.join(config[key])}); add one of them to {key}, or take {dataset} out of datasets"
                 )
+        presets = narrowed(config, "presets", dataset)
+        if not presets or presets == config["presets"]:
+            continue
+        if "paper_table" in entry:
+            yield f"sources.{dataset}.presets: the paper's table is compared with every preset; leave it out"
+        if set(SEARCHED) & set(config["presets"]) and not set(SEARCHED) & set(presets):
+            yield (
+                f"sources.{dataset}.presets: {', '.join(presets)} is not searched for, and models are chosen by the "
+                f"scores of searches; add {' or '.join(SEARCHED)}"
+            )

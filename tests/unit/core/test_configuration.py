@@ -140,15 +140,17 @@ def test_all_mistakes_are_listed_at_once() -> None:
 
 
 def test_of_what_a_dataset_gets_alone_something_is_configured() -> None:
-    entry = GOOD["sources"]["finger"]
+    entry = GOOD["sources"]["elastica_2023_09"]
     own = {"models": ["gp"], "presets": ["tuned"], "quantile_models": ["gb"], "interval_methods": ["scp_mapie"]}
-    check(GOOD | {"datasets": ["finger"], "sources": {"finger": entry | own}})
+    check(GOOD | {"datasets": ["elastica_2023_09"], "sources": {"elastica_2023_09": entry | own}})
     for key, names in own.items():
-        with pytest.raises(ConfigError, match=rf"sources\.finger\.{key}: \[\]"):
-            check(GOOD | {"datasets": ["finger"], "sources": {"finger": entry | {key: []}}})
+        with pytest.raises(ConfigError, match=rf"sources\.elastica_2023_09\.{key}: \[\]"):
+            check(GOOD | {"datasets": ["elastica_2023_09"], "sources": {"elastica_2023_09": entry | {key: []}}})
         rest = [name for name in GOOD[key] if name not in names]
-        with pytest.raises(ConfigError, match=rf"sources\.finger\.{key}: of {names[0]} none is among the configured"):
-            check(GOOD | {key: rest, "datasets": ["finger"], "sources": {"finger": entry | own}})
+        with pytest.raises(
+            ConfigError, match=rf"sources\.elastica_2023_09\.{key}: of {names[0]} none is among the configured"
+        ):
+            check(GOOD | {key: rest, "datasets": ["elastica_2023_09"], "sources": {"elastica_2023_09": entry | own}})
 
 
 def test_the_schema_is_strict_and_described_throughout() -> None:

@@ -55,3 +55,12 @@ def test_a_list_of_which_nothing_is_configured_is_told_of_configured_datasets() 
     (told,) = problems_of_narrowing(CONFIG | {"models": ["lr", "rf"]})
     assert told.startswith("sources.trunk.models: of gp none is among the configured models (lr, rf)")
     assert narrowed(CONFIG | {"models": ["lr", "rf"]}, "models", "finger") == ["lr"]
+
+
+def test_presets_that_tables_across_datasets_need_are_told() -> None:
+    sources = {"arm": {"presets": ["paper"]}, "finger": {"presets": ["outer"], "paper_table": 5}}
+    config = CONFIG | {"datasets": ["arm", "finger"], "sources": sources}
+    chosen, compared = problems_of_narrowing(config)
+    assert chosen.startswith("sources.arm.presets: paper is not searched for")
+    assert compared.startswith("sources.finger.presets: the paper's table is compared with every preset")
+    assert list(problems_of_narrowing(config | {"datasets": ["arm"], "presets": ["paper"]})) == []
