@@ -9,6 +9,7 @@ from softkin.cli.configuration import check
 from softkin.core.config_files import check_config_files
 from softkin.core.credentials import hide_credentials, with_credentials
 from softkin.core.errors import SoftkinError
+from softkin.core.fit_rows import rows_of_fit
 from softkin.core.narrowing import of_data
 from softkin.core.urls import without_credentials
 from softkin.data import own_files
@@ -149,8 +150,8 @@ def robot(wildcards):
 
 def max_fit_rows(wildcards):
     """How many rows of train a model, or the quantile regressor of that name, is fitted on at most; None for any number."""
-    name = wildcards.get("model") or wildcards.quantile_model
-    return config["max_fit_rows"].get(name)
+    names = wildcards.get("model"), wildcards.get("quantile_model")
+    return rows_of_fit(config["max_fit_rows"], *names)
 
 
 def tracking_uri():

@@ -13,6 +13,7 @@ from jsonschema.validators import extend
 
 from softkin.core.addresses import problems_of_mirror, problems_of_store
 from softkin.core.errors import ConfigError
+from softkin.core.fit_rows import OF_QUANTILES
 from softkin.core.narrowing import problems_of_narrowing
 from softkin.core.plain_values import problems_of_values
 from softkin.core.schema_files import read_schema
@@ -109,11 +110,16 @@ def _named(
         ("models", "model", registries["models"]),
         ("ensembles", "ensemble", registries["ensembles"]),
         ("interval_methods", "interval method", registries["interval_methods"]),
-        ("max_fit_rows", "model", registries["models"]),
         ("regions", "region", registries["regions"]),
         ("quantile_models", "quantile regressor", registries["quantile_models"]),
     ):
         yield from ((key, kind, name, registry) for name in config[key])
+    for name in config["max_fit_rows"]:
+        of_quantiles = name.removeprefix(OF_QUANTILES)
+        if of_quantiles == name:
+            yield "max_fit_rows", "model", name, registries["models"]
+        else:
+            yield "max_fit_rows", "quantile regressor", of_quantiles, registries["quantile_models"]
     for dataset, source in config["sources"].items():
         key = f"sources.{dataset}"
         yield f"{key}.format", "format", source["format"], registries["formats"]

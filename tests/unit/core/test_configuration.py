@@ -56,6 +56,7 @@ def test_the_shipped_configuration_is_good() -> None:
         (lambda c: c.update(confidence_levels=[0.9, 0.8]), ["not ascending", "[0.8, 0.9]"]),
         (lambda c: c.update(confidence_levels=[90]), ["confidence_levels.0", "90"]),
         (lambda c: c["max_fit_rows"].update(gpp=500), ["max_fit_rows: 'gpp'", "did you mean 'gp'?"]),
+        (lambda c: c["max_fit_rows"].update(quantile_gp=500), ["max_fit_rows: 'gp' is no quantile regressor"]),
         (lambda c: c.update(when_unreachable="simulat"), ["did you mean 'simulate'?"]),
         (lambda c: c["sources"]["finger"]["standin"].update(robot="tendon_fingr"), ["did you mean 'tendon_finger'?"]),
         (lambda c: c["sources"]["finger"].update(sha256="abc"), ["sources.finger.sha256"]),

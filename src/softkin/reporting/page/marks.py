@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
 
+from softkin.core.fit_rows import bounds_of
 from softkin.core.narrowing import narrowed
 from softkin.core.samples import SUBSETS, TRAIN, VALIDATION
 from softkin.core.units import MM, heading, unit_of
@@ -89,8 +90,8 @@ class Marks:
 
 def bounds_of_fits(config: Mapping[str, Any], dataset: str) -> dict[str, int]:
     """Of the models and quantile regressors of a dataset, the rows that they are fitted on at most."""
-    fitted = {*narrowed(config, "models", dataset), *narrowed(config, "quantile_models", dataset)}
-    return {name: most for name, most in config["max_fit_rows"].items() if name in fitted}
+    models, quantile_models = (narrowed(config, key, dataset) for key in ("models", "quantile_models"))
+    return bounds_of(config["max_fit_rows"], models, quantile_models)
 
 
 def fitted_on_fewer(description: Mapping[str, Any], max_fit_rows: Mapping[str, int]) -> str:
