@@ -24,6 +24,8 @@ for group in GROUPS:
             "results/benchmarks/fit_model/{dataset}/{model}.tsv"
         wildcard_constraints:
             dataset=datasets_of(group),
+        # Before quantile regressors, which only calibrating waits for: ensembles and refits go on beside these.
+        priority: 5
         conda:
             SOFTWARE
         threads: 1

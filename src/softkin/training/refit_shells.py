@@ -98,9 +98,10 @@ def refit_shells(
     cpu_seconds = 0.0
     for run, spec in specs.items():
         fit_settings = recorded_settings(read_json(records[run]), settings.seed, settings.threads)
-        max_rows = min(settings.max_rows, max_fit_rows.get(run.model, settings.max_rows))
+        own = max_fit_rows.get(run.model, settings.max_rows)
+        bound = (own, "max_fit_rows") if own < settings.max_rows else (settings.max_rows, "shells.max_rows")
         for place, (core, shell) in enumerate(parts):
-            samples = some_rows(train.take(core), max_rows, settings.seed)
+            samples = some_rows(train.take(core), bound[0], settings.seed, bound[1])
             with of_part(MODELS, run.model), stopwatch() as watch:
                 model = fitted_model(spec, fit_settings, samples)
             cpu_seconds += watch.cpu_seconds

@@ -15,6 +15,8 @@ def test_a_model_that_cannot_take_all_rows_gets_some_and_the_log_says_so(caplog:
     assert places == sorted(set(places))
     np.testing.assert_array_equal(rows.positions[places], kept.positions)
     assert "fitted on 20 of 50 rows: max_fit_rows" in caplog.text
+    some_rows(rows, 20, 0, "shells.max_rows")
+    assert "fitted on 20 of 50 rows: shells.max_rows" in caplog.text
     caplog.clear()
     assert some_rows(rows, 50, seed=0) is rows is some_rows(rows, None, seed=0)
     assert not caplog.text
