@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from functools import lru_cache
+from typing import Any, Literal
 
 import numpy as np
 
@@ -17,6 +18,10 @@ NEIGHBOURS = 10
 MOST_COMMANDS = 10
 #: Difficulty of a command with `NEIGHBOURS` copies in `train`, in units of that of a typical one.
 LEAST_DIFFICULTY = 0.1
+#: Results that are kept, of the sets of commands that were asked for last.
+MOST_KEPT = 4
+#: Content, shape and order in memory of an array of doubles.
+_Key = tuple[bytes, tuple[int, ...], Literal["C", "F"]]
 
 
 def intervals(data: PointCalibration, confidence_levels: Sequence[float]) -> Array:
@@ -40,7 +45,7 @@ def scaled(data: PointCalibration) -> Scaled:
     """The same in plain numbers."""
     (calibration,) = distances(data.train_commands, [data.calibration_commands])
     difficulty = np.tile(calibration[:, None], (1, data.truth.shape[1]))
-    numbers, _ = _measured(data.train_commands)
+    numbers, _ = _measured_once(_key(data.train_commands))
     return Scaled(
         lambda confidence_levels: normalised_sides(data, difficulty, confidence_levels),
         {"kind": "distance", "floor": TINY} | numbers,
@@ -48,16 +53,39 @@ def scaled(data: PointCalibration) -> Scaled:
 
 
 def distances(train: Array, others: Sequence[Array]) -> list[Array]:
-    """Difficulty (n_rows,) of each set of commands in `others`, (n_rows, n_commands) as `train`."""
-    numbers, finder = _measured(train)
-    difficulties = []
-    for commands in others:
-        rows = (commands - numbers["mean"]) / numbers["scale"]
-        beyond = np.linalg.norm(rows - np.clip(rows, numbers["low"], numbers["high"]), axis=1)
-        near = np.minimum(finder.kneighbors(rows)[0].mean(axis=1), numbers["emptiest"])
-        far = np.where(beyond > 0, numbers["emptiest"] + beyond, near)
-        difficulties.append(LEAST_DIFFICULTY + far / numbers["unit"])
-    return difficulties
+    """Difficulty (n_rows,) of each set of commands in `others`, (n_rows, n_commands) as `train`: of the same commands,
+    which all models of a robot share, it is computed once.
+    """
+    return [_difficulty(_key(train), _key(commands)) for commands in others]
+
+
+def _key(values: Array) -> _Key:
+    """All that an array is."""
+    order: Literal["C", "F"] = "F" if values.flags.f_contiguous and not values.flags.c_contiguous else "C"
+    return values.tobytes(order), values.shape, order
+
+
+def _array(key: _Key) -> Array:
+    content, shape, order = key
+    return np.frombuffer(content).reshape(shape, order=order)
+
+
+@lru_cache(MOST_KEPT)
+def _difficulty(train: _Key, others: _Key) -> Array:
+    """`distances` of one set of commands, which nobody may write to."""
+    numbers, finder = _measured_once(train)
+    rows = (_array(others) - numbers["mean"]) / numbers["scale"]
+    beyond = np.linalg.norm(rows - np.clip(rows, numbers["low"], numbers["high"]), axis=1)
+    near = np.minimum(finder.kneighbors(rows)[0].mean(axis=1), numbers["emptiest"])
+    far = np.where(beyond > 0, numbers["emptiest"] + beyond, near)
+    difficulty = LEAST_DIFFICULTY + far / numbers["unit"]
+    difficulty.flags.writeable = False
+    return np.asarray(difficulty)
+
+
+@lru_cache(MOST_KEPT)
+def _measured_once(train: _Key) -> tuple[dict[str, Any], Any]:
+    return _measured(_array(train))
 
 
 def _measured(train: Array) -> tuple[dict[str, Any], Any]:

@@ -1,10 +1,13 @@
 from __future__ import annotations
 
+from typing import Literal
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from softkin.uncertainty.intervals import split_conformal_distance
 from softkin.uncertainty.intervals.split_conformal_distance import LEAST_DIFFICULTY, distances, intervals
 from tests.unit.uncertainty.conftest import LEVELS, rank, spread_calibration
 
@@ -33,6 +36,24 @@ def test_commands_of_many_dimensions_take_no_more_corners_than_those_of_ten() ->
     train = np.random.default_rng(0).uniform(-1, 1, (30, 40))
     near, far = distances(train, [train[:3], 5 * train[:3]])
     assert (far > near).all()
+
+
+@pytest.mark.parametrize("order", ["C", "F"])
+def test_of_the_same_commands_it_is_computed_once_and_is_the_same_to_the_bit(order: Literal["C", "F"]) -> None:
+    rng = np.random.default_rng(3)
+    train, new = (np.asarray(rng.uniform(-1, 1, (n, 3)), order=order) for n in (80, 20))
+    (first,) = distances(train, [new])
+    known = split_conformal_distance._difficulty.cache_info().hits
+    (second,) = distances(train.copy(order), [new.copy(order)])
+    assert split_conformal_distance._difficulty.cache_info().hits == known + 1
+    numbers, finder = split_conformal_distance._measured(train)
+    rows = (new - numbers["mean"]) / numbers["scale"]
+    within = np.minimum(finder.kneighbors(rows)[0].mean(axis=1), numbers["emptiest"])
+    is_in_box = ((rows >= numbers["low"]) & (rows <= numbers["high"])).all(axis=1)
+    assert is_in_box.any()
+    np.testing.assert_array_equal(first, second)
+    np.testing.assert_array_equal(first[is_in_box], (LEAST_DIFFICULTY + within / numbers["unit"])[is_in_box])
+    assert not np.array_equal(distances(train + 1, [new])[0], first)
 
 
 @settings(max_examples=60, deadline=None)
