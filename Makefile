@@ -28,7 +28,7 @@ endif
 .PHONY: help run demo campaign refit schedule prune unlock new-robot test test-workflow test-small-runs test-learning test-units test-contracts other-pythons test-run lint ui store report verify
 .PHONY: gallery numbers results-page single-rows
 .PHONY: snakemake-report campaigns campaign-slurm coverage standins timings benchmark benchmark-large benchmark-pruning benchmark-shells
-.PHONY: benchmark-figures benchmark-fit-rows benchmark-two-files benchmark-commands benchmark-many-robots benchmark-recalibration benchmark-choice benchmark-promises
+.PHONY: benchmark-figures benchmark-fit-rows benchmark-two-files benchmark-commands benchmark-robots benchmark-many-robots benchmark-recalibration benchmark-choice benchmark-promises
 .PHONY: benchmark-latency latency-page benchmark-inverse benchmark-difficulty benchmark-peers benchmark-suggest
 .PHONY: environment clean ui-screenshot bad-inputs-page faults-page
 
@@ -187,6 +187,10 @@ benchmark-fit-rows: .venv/installed
 # Whether an export of Motive and a log of commands of 60,000 rows become a calibrated model in 5 minutes.
 benchmark-two-files: .venv/installed
 	$(BIN)/python -m benchmarks.two_files --cores "$$CORES"
+
+# One table of the robots in the folder IN, a file or a folder of files each: error, coverage, width, promise, findings.
+benchmark-robots: .venv/installed
+	$(BIN)/python -m benchmarks.robots --cores "$$CORES" -- "$$IN"
 
 # Whether a dry run of 1,000 datasets takes at most 90 s and 1.5 GB, and how both grow with the number of datasets.
 benchmark-many-robots: .venv/installed
