@@ -6,7 +6,8 @@ Makes up an arm of three markers that lags behind its commands, as OptiTrack Mot
 markers lost for stretches of frames, and the log of a controller whose clock ticks unevenly. Then it does what `make
 new-robot FILE=commands.csv POSITIONS=take.csv WRITE=1` and `make run ROBOT=commands MORE=config/few_trials.yaml` do, up
 to the calibrated model; with `--all` up to the report. No file is edited between the two. Prints wall and CPU seconds
-and the largest memory of each. The exit status is 1 where both take longer than `--minutes`, or one fails.
+and the largest memory of each, and the CPU seconds of each job. The exit status is 1 where both take longer than
+`--minutes`, or one fails.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.measured_run import HOUSE, measured_run, snakemake
+from benchmarks.utilisation import jobs
 from softkin.core.geometry.constant_curvature import from_arcs
 from softkin.core.samples import Array
 
@@ -110,6 +112,9 @@ def measure(folder: Path, options: argparse.Namespace) -> bool:
         print(f"{name}: {run.wall:.0f} s, {run.cpu:.0f} s of CPU, {run.gigabytes:.2f} GB at most, status {run.status}")
         if run.status:
             return False
+    table = jobs(folder / "results")[["job", "cpu_s", "fit_cpu_s", "memory_mb"]]
+    print(f"{table['cpu_s'].sum():.0f} s of CPU by the clocks of the jobs:")
+    print(table.sort_values("cpu_s", ascending=False).round(1).to_string(index=False))
     print(f"{options.rows} rows, both: {seconds / 60:.1f} minutes", flush=True)
     return bool(seconds <= 60 * options.minutes)
 
