@@ -15,11 +15,14 @@ THOUSANDS = re.compile(r"[+-]?\d{1,3}([.,' ]\d{3})+([.,]\d+)?", re.ASCII)
 _OTHER_MARK = {".": ",", ",": "."}
 _MARKS = {".": "points", ",": "commas"}
 #: Cells of numbers that say that there is none.
-MISSING = ("", "nan", "NaN", "NAN", "na", "NA", "n/a", "N/A", "null", "NULL", "None", "none")
+MISSING = (
+    *("", "nan", "NaN", "NAN", "Nan", "na", "NA", "n/a", "N/A", "null", "NULL", "Null", "None", "none", "<NA>", "NaT"),
+    *("-nan", "-NaN", "+nan", "+NaN", "nan(ind)", "-nan(ind)", "#N/A", "#NV", "-", "--", "---", "?"),
+)
 #: Bad rows are listed up to this many.
 SHOWN = 10
 FIX_MISSING = "fill the cell or delete the row, or write missing: drop_rows into the entry"
-_NOT_FINITE = ("nan", "na", "n/a", "null", "none", "inf", "infinity")
+_INFINITE = ("inf", "infinity")
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +69,8 @@ def _problem(row: Sequence[str], layout: Layout) -> _Problem | None:
         return _Problem(
             f"{len(row)} value{'s' * (len(row) != 1)}, but the header names {len(layout.names)} columns",
             f"write one value per column, separated by {layout.delimiter}; where numbers have decimal commas, separate "
-            "columns by semicolons; or write the character that separates them as `delimiter` of the entry",
+            "columns by semicolons; or write the character that separates them as `delimiter` of the entry; "
+            "delete a line that is no row",
         )
     if _are_plainly_numbers([row[place] for place in layout.numbers], layout.mark):
         return None
@@ -87,8 +91,10 @@ def _problem_of_cell(cell: str, mark: str) -> tuple[str, str] | None:
         return f"too large a number: '{cell[:40]}'", "correct the value or delete the row"
     if not cell:
         return "no value", FIX_MISSING
-    if cell.lower().lstrip("+-") in _NOT_FINITE:
+    if cell in MISSING:
         return f"no finite number: '{cell}'", FIX_MISSING
+    if cell.lower().lstrip("+-") in _INFINITE:
+        return f"no finite number: '{cell}'", "correct the value or delete the row"
     if NUMBER.fullmatch(cell):
         return (
             f"'{cell[:40]}', where other numbers have decimal {_MARKS[mark]}",

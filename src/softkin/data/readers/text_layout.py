@@ -1,7 +1,7 @@
 """How a text file is written: encoding, delimiter, what stands above its rows, and the names of its columns.
 
-Above the rows may stand lines of comment (`#`, `%`), a preamble of other shape, a header and a row of units. All of it
-is read off the first 256 kB.
+Above the rows may stand lines of comment (`#`, `%`, `//`), a preamble of other shape, a header of one row or two, and a
+row of units. All of it is read off the first 256 kB.
 """
 
 from __future__ import annotations
@@ -14,7 +14,15 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from softkin.core.errors import DataError
-from softkin.data.readers.bad_rows import NUMBER
+from softkin.data.readers.header_rows import (
+    COMMENTS,
+    are_units,
+    has_more_names,
+    holds_values,
+    is_number,
+    joined_names,
+    units_of,
+)
 from softkin.data.readers.text_encoding import decoded
 
 BLANKS = " "
@@ -25,15 +33,9 @@ SAMPLE_ROWS = 200
 SAME_SHAPE = 0.9
 #: A header stands below at most so many rows of other things.
 MOST_ABOVE = 30
-_COMMENTS = ("#", "%")
 #: A whole number, and one that nobody writes: it is what stands before or behind a decimal mark.
 _WHOLE = re.compile(r"[+-]?\d+")
 _NO_WHOLE = re.compile(r"-0|[+-]?0\d+")
-#: What a cell of a row of units holds, perhaps in brackets.
-_UNIT = re.compile(
-    r"[\[(]?(|-|1|%|[munk]?m|cm|in|inch|px|pixels?|[mk]?bar|[kM]?Pa|psi|[mk]?N|N?m?Nm|[mk]?V|m?A|[mun]?s|sec|[mk]?Hz|deg"
-    r"|°|rad|°?C|K|steps?|counts?|ticks?|rpm|g|kg|(m|cm|mm|rad|deg)/s(\^?2|²)?)[\])]?"
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,16 +113,11 @@ def rows_of(lines: Iterator[str], delimiter: str) -> Iterator[tuple[int, list[st
         ) from error
 
 
-def is_number(cell: str) -> bool:
-    """Whether a cell holds a number, with a decimal point or comma."""
-    return bool(NUMBER.fullmatch(cell.strip()))
-
-
 def _first_row(lines: Sequence[str]) -> tuple[int, str | None]:
     """How many lines above the first row are blank or comments, and the delimiter that Excel noted there."""
     above, noted = 0, None
     while above < len(lines) and (
-        not lines[above].strip() or lines[above].startswith("sep=") or lines[above].lstrip().startswith(_COMMENTS)
+        not lines[above].strip() or lines[above].startswith("sep=") or lines[above].lstrip().startswith(COMMENTS)
     ):
         if lines[above].startswith("sep=") and lines[above][4:5] in DELIMITERS:
             noted = noted or lines[above][4]
@@ -187,12 +184,17 @@ def _detected(
     first = first if len(rows[0][1]) != n_cells and _is_header(rows, first) else _below_padded(rows)
     layout = TextLayout(encoding, delimiter, above, ())
     cells = [cell.strip() for cell in rows[first][1]]
-    if not all(is_number(cell) or not cell for cell in cells):
-        return _below(rows, first, layout)
-    names = next((names for line in reversed(comments) if (names := _commented(line, delimiter, len(cells)))), None)
+    names = None
+    if any(map(is_number, cells)):
+        names = next((names for line in reversed(comments) if (names := _commented(line, delimiter, len(cells)))), None)
+    are_numbers = all(is_number(cell) or not cell for cell in cells)
+    if names is None and not are_numbers and not holds_values(cells):
+        return _below(
+            rows, first + (first + 1 < len(rows) and has_more_names([row for _, row in rows[first:]])), layout
+        )
     if names is None:
         raise DataError(
-            f"no header: the first row holds numbers only ('{delimiter.join(cells)[:60]}')",
+            f"no header: the first row holds numbers{' only' * are_numbers} ('{delimiter.join(cells)[:60]}')",
             where=f"line {above + 1}",
             fix="write a row with the names of the columns above it, or header: none into the entry (make new-robot "
             "HEADER=none), which calls them c1, c2, ...",
@@ -205,7 +207,7 @@ def _below_padded(rows: Sequence[tuple[int, list[str]]]) -> int:
     if all(cell.strip() for cell in rows[0][1][1:]):
         return 0
     for row in range(1, min(len(rows), MOST_ABOVE)):
-        if _is_header(rows, row) and not all(_UNIT.fullmatch(cell.strip()) for cell in rows[row][1]):
+        if _is_header(rows, row) and not are_units(rows[row][1]):
             return row
     return 0
 
@@ -214,26 +216,18 @@ def _below(rows: Sequence[tuple[int, list[str]]], first: int, layout: TextLayout
     """The layout of a file whose header is row `first` of `rows`."""
     line, cells = rows[first]
     above = layout.lines_above + line - 1 - sum(cell.count("\n") for cell in cells)
-    names = tuple(cell.strip() for cell in cells)
-    units = _units([row for _, row in rows[first + 1 : first + 4]], len(names))
+    names = joined_names(rows[first - 1][1] if first else (), cells)
+    below = [row for _, row in rows[first + 1 : first + 4]]
+    if below and not below[0][-1].strip() and len(below[0]) == len(names) + 1:
+        names = (*names, "")  # a delimiter at the end of each row, but not of the header
+    units = units_of(below, len(names))
     where = above if first else layout.lines_above
     return TextLayout(layout.encoding, layout.delimiter, where, names, 1 + bool(units), units)
 
 
-def _units(below: Sequence[Sequence[str]], n_cells: int) -> tuple[str, ...]:
-    """The row of units below a header; empty where there is none."""
-    if len(below) < 2 or len(below[0]) != n_cells or not any(is_number(cell) for cell in below[1]):
-        return ()
-    cells = tuple(cell.strip() for cell in below[0])
-    if not any(cells) or any(is_number(cell) and cell != "1" for cell in cells):
-        return ()
-    is_row = all(_UNIT.fullmatch(cell) for cell in cells) and sum(map(is_number, cells)) < sum(map(bool, cells))
-    return tuple(cell.strip("[]()") for cell in cells) if is_row else ()
-
-
 def _commented(line: str, delimiter: str, n_cells: int) -> tuple[str, ...] | None:
     """Names in a line of comment, as many as there are columns."""
-    text = line.strip().lstrip("".join(_COMMENTS)).strip()
+    text = line.strip().lstrip("".join(COMMENTS)).strip()
     for candidate in dict.fromkeys((delimiter, *DELIMITERS)):
         for _, cells in rows_of(iter([text]), candidate):
             if len(cells) == n_cells and not any(is_number(cell) for cell in cells):
