@@ -16,12 +16,15 @@ from softkin.data.readers.columns import ORIENTATION_WORDS
 WORDS = {
     "subset": "subset split",
     "group": "group trial run episode sequence session trajectory experiment repetition",
-    "time": "t time timestamp stamp datetime date",
-    "no position": f"{ORIENTATION_WORDS} gyro omega angular angle vel velocity acc",
+    "time": "t time timestamp stamp datetime date elapsed",
+    "no position": f"{ORIENTATION_WORDS} rx ry rz gyro omega angular angle vel velocity acc accel acceleration"
+    " mag magnetometer",
     "ignored": "index idx id row frame sample n no qx qy qz qw",
     "command": "u p q cmd command act actuation actuator input pressure chamber tendon cable force tension motor torque"
     " voltage current servo valve spool setpoint control",
 }
+#: Words of what a robot is told by, whose angle or rate may be the command.
+TOLD = frozenset([*WORDS["command"].split(), "joint", "steering", "crank", "tendons", "motors", "servos"])
 #: Words of a column's name that say that it is computed from others: a model's output, or a difference to it.
 COMPUTED = frozenset(
     [
@@ -46,13 +49,15 @@ _DIFFERENCE = re.compile(r"(d|err|error|res)_?([xyz])")
 UNIT_NORM = 0.02
 #: Rows follow each other where neighbours differ by less than this share of what any two rows differ by.
 ALIKE = 0.2
+#: So many rows that grow one after the other do not do so by chance.
+FEWEST_RISING = 12
 #: Positions that commands give by an affine map to this share of their range are no measurement.
 AFFINE = 1e-4
 
 
 def kind_of(name: str) -> str | None:
     """What a column is by the words of its name, ignored without any; None where no word is known."""
-    plain = re.sub(r"[^a-z]+", " ", re.split(r"[\[(]", name.lower())[0]).split()
+    plain = re.sub(r"[^a-z]+", " ", re.split(r"[\[(]", name.lower().lstrip("[( "))[0]).split()
     if not plain:
         return "ignored"
     return next((kind for kind, known in WORDS.items() if {*plain, "".join(plain)}.intersection(known.split())), None)
@@ -107,6 +112,15 @@ def is_running(column: NDArray[Any]) -> bool:
 def running_number(kinds: Mapping[str, str | None], columns: Mapping[str, NDArray[Any]]) -> str | None:
     """The first column that is a running number by its name (its kind is `ignored`) and its numbers; None without."""
     return next((name for name in kinds if kinds[name] == "ignored" and is_running(columns[name])), None)
+
+
+def rising(names: Sequence[str], columns: Mapping[str, NDArray[Any]]) -> str | None:
+    """The first column of numbers that grows from row to row, as a time does; None without."""
+    for name in names:
+        column = columns[name]
+        if column.dtype != object and len(column) >= FEWEST_RISING and (np.diff(column) > 0).all():
+            return name
+    return None
 
 
 def are_alike(values: Array) -> bool:

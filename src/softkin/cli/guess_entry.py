@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
-from itertools import combinations
+from itertools import combinations, product
 from pathlib import Path
 from typing import Any
 
@@ -12,24 +11,24 @@ import numpy as np
 
 from softkin.cli import column_kinds
 from softkin.cli.column_kinds import kind_of
+from softkin.cli.guess_missing import values_of
 from softkin.cli.guess_orientation import orientation_key, question_of_orientation, rotations
 from softkin.cli.guess_questions import ASKED, PIXELS, Question, question_of, reasons_left_out, words_of
+from softkin.cli.guess_split import of_recording, split_of, when_recorded
 from softkin.core.errors import DataError
 from softkin.core.samples import Array
-from softkin.core.units import MM_PER_UNIT
-from softkin.data import split
+from softkin.core.units import LENGTHS, MM_PER_UNIT
 from softkin.data.orientation import KEY
-from softkin.data.readers.columns import axis_of, marker_by_marker, unit_of
+from softkin.data.readers.columns import family_of, marker_by_marker, unit_of
 from softkin.data.readers.memory_table import Table
 from softkin.data.readers.table_formats import open_table
-from softkin.data.recordings import check_placed, recording_of
 
 #: A table, and its columns by their names.
 Looked = tuple[Table, Mapping[str, Any]]
-#: Parts of a column's name that say one power-on of the robot.
-SESSION = re.compile(r"session|trial|run")
 #: A workspace wider than this is taken to be in mm: no robot is so many metres wide.
 LARGEST_METRES = 5.0
+#: A workspace narrower than this may be in cm as well as in mm.
+NARROW_MM = 60.0
 #: A camera's unit; what a row of units or a name may say of positions.
 PX = "px"
 UNITS = frozenset({*MM_PER_UNIT, PX, "pixel", "pixels"})
@@ -60,28 +59,26 @@ def guess_entry(
         positions, dimensions, reasons = _positions(usable, path)
         kinds = {name: kind_of(name) for name in usable if name not in positions}
         numeric = {name: kind for name, kind in kinds.items() if looked[name].dtype != object}
-        commands, why_commands = _commands(numeric, table.names, path, told)
+        commands, why_commands = _commands(numeric, looked, path, told)
         reasons += why_commands
-        values, missing, why_missing = _values(table, [*commands, *positions], looked)
-        inputs, values = values[:, : len(commands)], values[:, len(commands) :]
+        inputs, values, missing, why_missing = values_of(table, commands, positions, dimensions, looked)
     except DataError as error:
         raise error if error.where == str(path) else error.within(str(path)) from error
     if not len(values):
         raise DataError("a header, but no row of numbers", where=path, fix="export the file again")
     unit, why_unit = _unit(positions, values, path, table)
-    split_options, why_split = _split(table, kinds)
     entry: dict[str, Any] = {"title": title, "format": "table_file", "file": file, **(options or {})}
-    entry |= {"position_unit": unit, "commands": commands, "positions": positions, "split": split_options}
-    when, why_when = _when(table, kinds)
+    entry |= {"position_unit": unit, "commands": commands, "positions": positions}
+    when, why_when = when_recorded(table, kinds)
+    split_options, why_split = split_of(table, kinds, when, "files" in (options or {}))
     turned, why_turned = orientation_key(table.names, looked, answer if of_turn else None)
-    if not when and split_options["method"] == "random" and column_kinds.are_alike(inputs):
-        if running := column_kinds.running_number(kinds, looked):
-            when, split_options = {"order": running}, {"method": "later"}
-            why_split = f"order, split: '{running}' is a running number and rows in turn are alike; please check"
-        else:
-            reasons.append("order: rows in turn are alike, as of a recording: add a column of its time to the file")
-    entry |= when | missing | turned
-    entry["split"] = split_options
+    if not when and split_options["method"] == "random":
+        when, split_options, why_split = of_recording(inputs, commands, kinds, looked) or (
+            when,
+            split_options,
+            why_split,
+        )
+    entry |= {"split": split_options} | when | missing | turned
     if column_kinds.affine_copies(inputs, values):
         reasons.append(f"suspicious_affine: an affine map of {', '.join(commands)} gives the positions; please check")
     reasons += [*why_turned, why_unit, why_split, *why_when, *why_missing]
@@ -107,7 +104,8 @@ def asked(path: Path, options: Mapping[str, Any] | None = None, seen: Looked | N
 
 def _questions(names: Sequence[str], looked: Mapping[str, Any]) -> tuple[Question | None, bool]:
     """What is asked, one question at a time, and whether it is of the orientation."""
-    question = question_of(names, looked)
+    measured = [name for name in names if name not in column_kinds.computed(names)]
+    question = question_of(measured, looked)
     return (question, False) if question is not None else (question_of_orientation(names, looked), True)
 
 
@@ -126,17 +124,22 @@ def look(path: Path, options: Mapping[str, Any] | None) -> Looked:
 
 def _positions(names: Sequence[str], path: Path) -> tuple[list[str], int, list[str]]:
     """Columns of positions, marker by marker, how many per marker, and what a person must check of them."""
-    named = {name: axis for name in names if (axis := axis_of(name)) and kind_of(name) != "no position"}
-    for axes in ("xyz", *combinations("xyz", 2)):
+    usable = [name for name in names if kind_of(name) != "no position"]
+    for axes, by_unit in product(("xyz", *combinations("xyz", 2)), (True, False)):
+        named = {name: family for name in usable if (family := family_of(name, by_unit))}
         complete = [
-            name for name, (rest, _) in named.items() if sorted(a for r, a in named.values() if r == rest) == [*axes]
+            name
+            for name, (rest, _) in named.items()
+            if sorted(axis for other, axis in named.values() if other == rest) == [*axes]
         ]
         if complete:
             columns = [name for name in complete if kind_of(name) != "command"] or complete
             return marker_by_marker(columns), len(axes), []
-    numbered = column_kinds.numbered_positions([name for name in names if kind_of(name) is None])
-    if numbered:
-        return numbered, 3, ["positions: three numbered columns of one name; please check"]
+    told = [name for name in names if kind_of(name) == "command"]
+    for candidates in ([name for name in names if kind_of(name) is None], told):
+        numbered = column_kinds.numbered_positions(candidates)
+        if numbered and (candidates is not told or len(numbered) < len(told)):
+            return numbered, 3, ["positions: three numbered columns of one name; please check"]
     raise DataError(
         f"no columns look like positions: {', '.join(names[:40])}",
         where=path,
@@ -145,51 +148,33 @@ def _positions(names: Sequence[str], path: Path) -> tuple[list[str], int, list[s
 
 
 def _commands(
-    kinds: Mapping[str, str | None], names: Sequence[str], path: Path, told: Sequence[str]
+    kinds: Mapping[str, str | None], looked: Mapping[str, Any], path: Path, told: Sequence[str]
 ) -> tuple[list[str], list[str]]:
     """Columns of commands, those that a person says are `told` the robot among them, and what is to be checked."""
     commands = [*(name for name, kind in kinds.items() if kind == "command"), *told]
     if commands:
         return commands, []
     unknown = [name for name, kind in kinds.items() if kind is None]
-    if not unknown:
-        raise DataError(
-            f"no column looks like a command: {', '.join(names[:40])}",
-            where=path,
-            fix="name them u1, u2, ..., or write the entry by hand, see config/README.md",
-        )
-    return unknown, ["commands: all columns that look like nothing else; please check"]
-
-
-def _values(table: Table, names: Sequence[str], looked: Mapping[str, Any]) -> tuple[Array, dict[str, str], list[str]]:
-    """Values (n_rows, n_names) of columns, the key `missing` where some are, and why; of the rows that were `looked` at
-    where the file cannot be read to its end.
-
-    Raises:
-        DataError: no row holds all numbers.
-    """
-    places = [table.names.index(name) for name in names]
-    try:
-        return table.read(places, [])[0], {}, []
-    except DataError as error:
-        whole = error
-    try:
-        values, _ = table.read(places, [], gaps=True)
-    except DataError:
-        seen = [looked[name] if looked[name].dtype != object else np.full(len(looked[name]), np.nan) for name in names]
-        good = np.column_stack(seen)
-        good = good[~np.isnan(good).any(axis=1)]
-        if not len(good):
-            raise whole from None
-        return good, {}, [f"guessed from {len(good)} rows, since the file is not readable to its end"]
-    count = int(np.isnan(values).any(axis=1).sum())
-    why = f"missing: {count} of {len(values)} rows lack a number and are left out; please check"
-    return values[~np.isnan(values).any(axis=1)], {"missing": "drop_rows"}, [why]
+    timeless = [name for name in unknown if column_kinds.rising([name], looked) is None]
+    if unknown:
+        return timeless or unknown, ["commands: all columns that look like nothing else; please check"]
+    angles = [name for name, kind in kinds.items() if kind == "no position" and words_of(name) & column_kinds.TOLD]
+    if angles:
+        return angles, ["commands: columns that are angles or rates of what a robot is told by; please check"]
+    text = {name: column[0] for name, column in looked.items() if len(column) and column.dtype == object}
+    holds = "".join(f"; '{name}' holds text: '{str(cell)[:20]}'" for name, cell in [*text.items()][:4])
+    raise DataError(
+        f"no column looks like a command: {', '.join([*looked][:40])}{holds}",
+        where=path,
+        fix="name them u1, u2, ..., or name the file of commands, too, where a tracker wrote this one (make new-robot "
+        "FILE=commands.csv POSITIONS=take.csv), or write the entry by hand, see config/README.md",
+    )
 
 
 def _unit(names: Sequence[str], values: Array, path: Path, table: Table) -> tuple[str, str]:
     """The unit of the positions, and why."""
-    told = {table.units[table.names.index(name)] for name in names} if table.units else set()
+    said = {table.units[table.names.index(name)] for name in names} if table.units else set()
+    told = {LENGTHS.get(unit.lower()) or unit for unit in said}
     if len(told) == 1 and told <= UNITS:
         unit = told.pop()
         return unit, f"position_unit: the row of units says {unit}"
@@ -201,43 +186,11 @@ def _unit(names: Sequence[str], values: Array, path: Path, table: Table) -> tupl
     if None not in units:
         unit = str(units.pop())
         return unit, f"position_unit: the columns' names say {unit}"
-    extent = np.ptp(values, axis=0).max()
+    extent = float(np.ptp(values, axis=0).max())
     if any(words_of(name) & PIXELS for name in names):
         return PX, "position_unit: the names say pixels, which stay pixels: no length is known of them; please check"
     unit = "m" if extent <= LARGEST_METRES else "mm"
     beside = next((name for name in table.names if words_of(name) & PIXELS), None)
     hint = "" if beside is None else f" ({PX} if these are pixels, as '{beside}' seems to be)"
+    hint += " (cm is possible, too)" * (LARGEST_METRES < extent <= NARROW_MM)
     return unit, f"position_unit: guessed from the width of the workspace, {extent:.3g}; please check{hint}"
-
-
-def _when(table: Table, kinds: Mapping[str, str | None]) -> tuple[dict[str, str], list[str]]:
-    """Columns of the order and the session of rows, and what a person must check of them; none where they are no
-    order, or sessions are not in one piece.
-    """
-    order = next((name for name, kind in kinds.items() if kind == "time"), None)
-    session = next((name for name, kind in kinds.items() if kind == "group" and SESSION.search(name.lower())), None)
-    named = {key: name for key, name in (("order", order), ("session", session)) if name is not None}
-    if not named:
-        return {}, []
-    _, columns = table.read([], [table.names.index(name) for name in named.values()])
-    by = dict(zip(named, columns, strict=True))
-    try:
-        recording = recording_of(np.zeros((len(columns[0]), 1)), by.get("order"), by.get("session"), table.place)
-        unjoined = getattr(table, "unjoined", None)
-        check_placed(recording if unjoined is None else recording.take(~unjoined), table.place)
-    except DataError as error:
-        return {}, [f"order, session: left out, since {' and '.join(named.values())} are none: {error.what}"]
-    return named, [f"{', '.join(named)}: guessed from the names of columns, so that memory can be found; please check"]
-
-
-def _split(table: Table, kinds: Mapping[str, str | None]) -> tuple[dict[str, Any], str]:
-    """The options of the split, and why."""
-    by_kind = {kind: name for name, kind in reversed(list(kinds.items()))}
-    if name := by_kind.get("subset"):
-        _, (column,) = table.read([], [table.names.index(name)])
-        if {str(value).strip() for value in column} <= set(split.SPELLINGS):
-            return {"method": "column", "column": name}, f"split: '{name}' names the subsets"
-    for kind in ("group", "time"):
-        if name := by_kind.get(kind):
-            return {"method": kind, "column": name}, f"split: by {kind}, since there is a column '{name}'"
-    return {"method": "random"}, "split: at random, rows of the same command together"

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,8 @@ from softkin.core.rotations import DEGREES, MATRIX, RADIANS, WXYZ, XYZW, are_non
 from softkin.data.orientation import KEY
 
 _COMPONENT = re.compile(r"(?:^|q|[^a-z])([wxyz])(?:$|[^a-z])")
+#: Row and column of a matrix at the end of a name.
+_ROW_COLUMN = re.compile(r"([0-3])[_,]?([0-3])\]?\)?$")
 #: Roll, pitch and yaw as people call them, each with its place.
 _ANGLES = (
     {"roll": 0, "pitch": 1, "yaw": 2},
@@ -99,7 +102,11 @@ def _quaternion(found: list[str], _: Columns) -> tuple[list[dict[str, Any]], str
 
 
 def _matrix(found: list[str], _: Columns) -> tuple[list[dict[str, Any]], str]:
-    """A matrix reads as a rotation by columns, too: as its inverse."""
+    """A matrix reads as a rotation by columns, too, as its inverse: names such as r12 tell which it is."""
+    places = [match.groups() for name in found if (match := _ROW_COLUMN.search(name))]
+    if any(sorted(places) == [*product(numbers, repeat=2)] for numbers in ("012", "123")):
+        named = [name for _, name in sorted(zip(places, found, strict=True))]
+        return [{"kind": MATRIX, "columns": named}], "orientation: a rotation matrix, by its numbers and names"
     why = "orientation: nine columns are rotation matrices, taken row by row; please check"
     return [{"kind": MATRIX, "columns": found}], why
 

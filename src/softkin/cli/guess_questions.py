@@ -2,6 +2,7 @@
 
 - A marker that is a turned, shifted or converted copy of another is in another frame or unit: which of the two is it?
 - Columns of positions that are called desired, reference or target beside measured ones: are they commands, or nothing?
+- Columns that a sensor measured beside those that the robot was told: are they commands, too, or nothing?
 """
 
 from __future__ import annotations
@@ -16,10 +17,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from softkin.cli import column_kinds
-from softkin.data.readers.columns import axis_of
+from softkin.data.readers.columns import axis_of, family_of
 
 #: Words of a column's name that say that it is what was wished for.
 DESIRED = frozenset(["des", "desired", "ref", "reference", "target", "goal", "wanted", "setpoint"])
+#: Words of a column's name that say that a sensor measured it; of forces along x, y and z one did.
+MEASURED = frozenset(["meas", "measured", "actual", "sensor", "sensed", "feedback", "fb", "reading", "encoder"])
+SENSED = frozenset(["force", "torque", "current", "tension", "load"])
 #: Words of a column's name that say that it was measured by a camera.
 PIXELS = frozenset(["img", "image", "px", "pixel", "pixels", "cam", "camera"])
 FEWEST_ROWS = 12
@@ -63,6 +67,8 @@ def question_of(names: Sequence[str], columns: Mapping[str, NDArray[Any]]) -> Qu
             (tuple(desired), ()),
             tuple(desired),
         )
+    if (sensed := _sensed(names, columns)) is not None:
+        return sensed
     for one, other in combinations([family for family in families if not set(family) & set(desired)], 2):
         if len(one) == len(other) and _same_in_another_frame(one, other, columns):
             first, second = ", ".join(one), ", ".join(other)
@@ -72,6 +78,28 @@ def question_of(names: Sequence[str], columns: Mapping[str, NDArray[Any]]) -> Qu
                 (tuple(other), tuple(one)),
             )
     return None
+
+
+def _sensed(names: Sequence[str], columns: Mapping[str, NDArray[Any]]) -> Question | None:
+    """Whether measured values beside those that the robot was told are commands, too."""
+    numbers = [name for name in names if columns[name].dtype != object]
+    told = [name for name in numbers if column_kinds.kind_of(name) == "command"]
+    forces = {name: axis[0] for name in told if words_of(name) & SENSED and (axis := axis_of(name))}
+    found = [
+        name
+        for name in numbers
+        if (column_kinds.kind_of(name) in ("command", None) and axis_of(name) is None and words_of(name) & MEASURED)
+        or [*forces.values()].count(forces.get(name, "")) == 3
+    ]
+    others = [name for name in told if name not in found]
+    if not found or not others:
+        return None
+    return Question(
+        f"{', '.join(found)} were measured beside {', '.join(others)}: are they known, too, when a pose is predicted?",
+        ("not used", "commands"),
+        (tuple(found), ()),
+        tuple(found),
+    )
 
 
 def reasons_left_out(names: Sequence[str], columns: Mapping[str, NDArray[Any]], kinds: Mapping[str, str | None]) -> str:
@@ -91,10 +119,16 @@ def _reason(name: str, columns: Mapping[str, NDArray[Any]], kind: str | None) ->
         return "an orientation: four columns of unit norm"
     if kind == "no position":
         return "an orientation or a rate, by its name"
+    if words_of(name) & MEASURED and axis_of(name) is None:
+        return "measured and not told, by its name"
     if words_of(name) & DESIRED:
         return "desired and not measured, by its name"
     if column_kinds.is_running(columns[name]):
         return "a running number"
+    if kind is None and axis_of(name) is not None:
+        return "a position without its other axes, or one that is not used"
+    if not name:
+        return "a column without a name"
     return LABELS.get(str(kind), "neither a command nor a position, by its name")
 
 
@@ -102,8 +136,8 @@ def _families(names: Sequence[str]) -> list[list[str]]:
     """Columns of one marker each, by the axes that their names tell, in the order of the file."""
     found: dict[str, list[str]] = {}
     for name in names:
-        if axis := axis_of(name):
-            found.setdefault(axis[0], []).append(name)
+        if family := family_of(name):
+            found.setdefault(family[0], []).append(name)
     return [family for family in found.values() if 2 <= len(family) <= 3]
 
 

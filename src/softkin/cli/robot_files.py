@@ -30,11 +30,8 @@ class RobotFiles:
     reasons: list[str]
 
     def entry(self, guessed: Mapping[str, Any]) -> dict[str, Any]:
-        """A guessed entry with what it names: `file`, or `files`, whose trials are split as sessions are."""
-        entry = {key: value for key, value in guessed.items() if not (key == "file" and "files" in self.options)}
-        if "files" in self.options and entry["split"] == {"method": "group", "column": entry.get("session")}:
-            entry["split"] = {"method": "session"}
-        return entry
+        """A guessed entry with what it names: `file`, or `files`."""
+        return {key: value for key, value in guessed.items() if not (key == "file" and "files" in self.options)}
 
 
 @contextmanager
@@ -55,6 +52,8 @@ def robot_files(names: Sequence[str], options: Mapping[str, Any], join: str | No
     for name, files in zip(names, found, strict=True):
         if not files or not all(Path(file).is_file() for file in files):
             fix = "name the robot's file: make new-robot FILE=..."
+            if name and Path(name).is_dir():
+                fix = f"that is a folder; name a file in it, or a pattern of trials: make new-robot FILE='{name}/*.csv'"
             raise DataError(f"no such file: '{name}'", where="FILE", fix=fix)
     if len(found) == 1 and found[0] == [names[0]]:
         yield RobotFiles(Path(names[0]), _called(names[0]), dict(options), [])
@@ -64,7 +63,7 @@ def robot_files(names: Sequence[str], options: Mapping[str, Any], join: str | No
     columns = {tuple(sorted(table.names)) for part in tables for table in part}
     reasons: list[str] = []
     keys: dict[str, Any] = {**options, "files": called}
-    if len(columns) == 1 and join is None:
+    if join is None and (len(columns) == 1 or len(tables) == 1):
         reasons.append(f"files: {sum(map(len, found))} files of the same columns, so trials; each is a session")
     else:
         keys["join"], reasons = guess_join(list(zip(called, (part[0] for part in tables), strict=True)), join)

@@ -19,7 +19,7 @@ from softkin.core.errors import DataError
 from softkin.core.recording import CommandMemory, Recording, Whole, gaps
 from softkin.core.samples import SUBSETS, Array, Samples
 from softkin.data.missing_values import lacks_value
-from softkin.data.split import times
+from softkin.data.times import times
 
 logger = logging.getLogger("softkin")
 
@@ -36,7 +36,8 @@ def recording_of(
 ) -> Recording:
     """The recording of all rows of a dataset, their memory included.
 
-    Whole numbers of order stay as they are, so that gaps stay visible; times become ranks from 1, of all rows. Where
+    Whole numbers of order that count rows stay as they are, so that gaps stay visible; times, of a clock in whole
+    milliseconds too, become ranks from 1, of all rows. Where
     the order starts again in each session, sessions follow each other as in the file. A row whose command, order or
     session is missing is a hole: nothing is known of what it left behind, so memory begins at rest after it.
 
@@ -70,8 +71,9 @@ def recording_of(
         number = np.arange(1, len(rows) + 1)
     else:
         in_time = np.argsort(when, kind="stable")
-        is_whole = bool((when == np.round(when)).all()) and bool((np.abs(when) < LARGEST_ORDER).all())
-        number = when[in_time].astype(np.int64) if is_whole else np.arange(1, len(rows) + 1)
+        counts = bool((when == np.round(when)).all()) and bool((np.abs(when) < LARGEST_ORDER).all())
+        counts = counts and bool(np.median(np.diff(when[in_time], prepend=when.min() - 1)) <= 1)  # else a clock in ms
+        number = when[in_time].astype(np.int64) if counts else np.arange(1, len(rows) + 1)
     numbered, numbers = np.zeros(n_rows, dtype=np.int64), np.zeros(n_rows, dtype=np.int64)
     numbered[rows[in_time]] = number
     numbers[rows] = _sessions(labels, in_time, placed)

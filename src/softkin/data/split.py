@@ -20,6 +20,7 @@ from softkin.core.recording import Recording
 from softkin.core.samples import EXTRAPOLATION, MIN_ROWS, SUBSETS, TEST, TRAIN, VALIDATION, Array
 from softkin.data.missing_values import check_whole
 from softkin.data.split_in_time import IN_TIME, split_in_time
+from softkin.data.times import times
 
 Codes = NDArray[np.int64]
 
@@ -134,7 +135,7 @@ def _drawn_subsets(options: Mapping[str, Any], groups: Codes, norms: Array) -> C
     if n_groups < len(SUBSETS):
         raise DataError(
             f"{_counted(n_groups, options)}, but four subsets need at least four",
-            where="commands" if options["method"] == "random" else f"column '{options['column']}'",
+            where=f"column '{options['column']}'" if "column" in options else "commands",
             fix="record more, or choose another `method` of `split`",
         )
     sizes = np.bincount(groups)
@@ -191,36 +192,18 @@ def _same_value(
 
 
 def _same_stretch(
-    options: Mapping[str, Any], _commands: Array, column: NDArray[Any] | None, place: Callable[[int], str]
+    options: Mapping[str, Any], commands: Array, column: NDArray[Any] | None, place: Callable[[int], str]
 ) -> Codes:
-    """Stretches of equal size of the recording in the order of time; rows of one time stay together."""
-    assert column is not None
-    check_whole(options["column"], column, "time", place)
-    when = times(options["column"], column, place)
+    """Stretches of equal size of the recording in the order of time, that of the file where no column tells it; rows of
+    one time stay together.
+    """
+    when: NDArray[Any] = np.arange(len(commands))
+    if column is not None:
+        check_whole(options["column"], column, "time", place)
+        when = times(options["column"], column, place)
     rank = np.searchsorted(np.sort(when), when, side="left")
     stretches = rank * options.get("blocks", BLOCKS) // len(when)
     return np.asarray(np.unique(stretches, return_inverse=True)[1])
-
-
-def times(name: str, column: NDArray[Any], place: Callable[[int], str]) -> NDArray[Any]:
-    """Numbers or ISO 8601 dates, as text or numbers, as numbers that sort alike."""
-    import pandas as pd
-
-    if column.dtype != object:
-        return column
-    text = pd.Series(column).astype(str)
-    numbers = pd.to_numeric(text.str.replace(",", ".", regex=False), errors="coerce")
-    if numbers.notna().all():
-        return np.asarray(numbers.to_numpy(np.float64))
-    dates = pd.to_datetime(text, format="ISO8601", errors="coerce", utc=True)
-    if dates.notna().all():
-        return np.asarray(dates.astype("int64").to_numpy())
-    first = int(np.argmax((numbers.isna() & dates.isna()).to_numpy()))
-    raise DataError(
-        f"'{column[first]}' is no time",
-        where=f"{place(first)}, column '{name}'",
-        fix="write all times as numbers (seconds), or all as dates like 2024-05-31T12:00:00.5",
-    )
 
 
 def _factorize(column: NDArray[Any]) -> tuple[Codes, list[Any]]:

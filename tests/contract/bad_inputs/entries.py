@@ -120,7 +120,7 @@ CASES = [
     BadInput("four dimensions", own({"dimensions": 4}), ("sources.arm.dimensions: 4 is none of 2, 3",)),
     BadInput("a letter as delimiter", own({"delimiter": "a"}), ("sources.arm.delimiter",)),
     BadInput("an unknown split", own({"split": {"method": "groups"}}), ("did you mean 'group'?",)),
-    BadInput("a split without its column", own({"split": {"method": "time"}}), ("'column' is a required",)),
+    BadInput("a split without its column", own({"split": {"method": "group"}}), ("'column' is a required",)),
     BadInput(
         "a share of 95 %",
         own({"split": {"method": "random", "extrapolation_share": 0.95}}),

@@ -10,6 +10,7 @@ import pytest
 from softkin.cli.guess_entry import LARGEST_METRES, guess_entry
 from softkin.core.errors import DataError
 from softkin.data.readers import table_file
+from tests.conftest import HOUSE
 from tests.unit.cli.tables import SIZE, columns
 
 
@@ -118,3 +119,42 @@ def test_rows_that_follow_each_other_are_a_recording_though_no_column_says_so(tm
     table.to_csv(tmp_path / "arm.csv", index=False)
     _, reasons = guess_entry(tmp_path / "arm.csv", "Arm", "arm.csv")
     assert any("rows in turn are alike" in reason for reason in reasons)
+
+
+@pytest.mark.parametrize(
+    ("names", "expected"),
+    [
+        (["count", "a", "b", "x", "y", "z"], {"commands": ["a", "b"], "positions": ["x", "y", "z"]}),
+        (["X_train_1", "X_train_2", "y_train_1", "y_train_2", "y_train_3"], {"commands": ["X_train_1", "X_train_2"]}),
+        (["u_1", "u_2", "p_1", "p_2", "p_3"], {"commands": ["u_1", "u_2"], "positions": ["p_1", "p_2", "p_3"]}),
+        (["u1", "rotvec_x", "rotvec_y", "rotvec_z", "x", "y", "z"], {"commands": ["u1"], "positions": ["x", "y", "z"]}),
+        (["u1", "mag_x", "mag_y", "mag_z", "x", "y", "z"], {"commands": ["u1"], "positions": ["x", "y", "z"]}),
+        (["motor_angle_1", "motor_angle_2", "x", "y", "z"], {"commands": ["motor_angle_1", "motor_angle_2"]}),
+        (["('cmd', 'u')", "('tip', 'x')", "('tip', 'y')", "('tip', 'z')"], {"commands": ["('cmd', 'u')"]}),
+        (["u1", "x", "y", "z", "x_model", "y_model", "z_model"], {"positions": ["x", "y", "z"]}),
+    ],
+)
+def test_names_are_not_taken_for_what_they_are_not(tmp_path: Path, names: list[str], expected: dict[str, Any]) -> None:
+    rng = np.random.default_rng(0)
+    table = pd.DataFrame(rng.uniform(20, 90, (60, len(names))), columns=names)
+    if "count" in names:
+        table["count"] = np.arange(60)
+    table.to_csv(tmp_path / "arm.csv", index=False)
+    entry, _ = guess_entry(tmp_path / "arm.csv", "Arm", "arm.csv")
+    assert {key: entry[key] for key in expected} == expected
+
+
+def test_text_and_a_tracker_alone_are_said(tmp_path: Path) -> None:
+    (tmp_path / "arm.csv").write_text("u1,x,y,z\n6.0 kPa,1,2,3\n7.0 kPa,2,3,4\n")
+    with pytest.raises(DataError, match=r"'u1' holds text: '6\.0 kPa'"):
+        guess_entry(tmp_path / "arm.csv", "Arm", "arm.csv")
+    with pytest.raises(DataError) as raised:
+        guess_entry(HOUSE / "tests" / "cases" / "06_motive_export.csv", "Arm", "arm.csv")
+    assert "POSITIONS=take.csv" in str(raised.value.fix)
+
+
+def test_a_workspace_of_some_centimetres_may_be_in_either(tmp_path: Path) -> None:
+    columns("u1", "x", "y", "z", scale=1.0).clip(upper=20.0).to_csv(tmp_path / "arm.csv", index=False)
+    entry, reasons = guess_entry(tmp_path / "arm.csv", "Arm", "arm.csv")
+    assert entry["position_unit"] == "mm"
+    assert any("cm is possible, too" in reason for reason in reasons)

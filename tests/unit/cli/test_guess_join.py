@@ -57,3 +57,20 @@ def test_nothing_to_join_by_is_an_error_with_all_columns() -> None:
         of(table(u1=TEN), table(x=TEN[:5]))
     with pytest.raises(DataError, match="belong together by time"):
         of(table(ID=TEN, u1=TEN), table(ID=TEN, x=TEN), wanted="time")
+
+
+def test_dates_are_times_and_times_in_other_units_are_refused() -> None:
+    dates = np.array([f"2024-05-31 12:00:{second:02d}" for second in range(10)], dtype=object)
+    log = MemoryTable(("date", "u1"), (dates, TEN))
+    assert of(log, table(t=TEN, x=TEN))[0]["offset"] == 1717156800.0
+    with pytest.raises(DataError, match=r"different units\? 't' goes on for 9, 'time_ms' for 9000"):
+        of(table(t=TEN, u1=TEN), table(time_ms=TEN * 1000, x=TEN))
+
+
+def test_rows_that_are_counted_from_0_and_from_1_are_asked_for() -> None:
+    assert "starts at 0 and at 1: are rows counted alike?" in of(table(ID=TEN, u1=TEN), table(ID=TEN + 1, x=TEN))[1]
+
+
+def test_times_that_tell_nothing_are_no_reason_to_count_rows() -> None:
+    with pytest.raises(DataError, match="nothing tells"):
+        of(table(t=TEN[::-1], u1=TEN), table(t=TEN, x=TEN))

@@ -79,3 +79,16 @@ def test_several_bodies_are_said_and_not_guessed() -> None:
     assert entries == []
     assert "several (mid_qx" in why
     assert orientation(["a"], {"a": VECTORS[:, 0]}) == ([], "")
+
+
+@pytest.mark.parametrize("names", [[f"r{row}{column}" for column in "123" for row in "123"], None])
+def test_names_tell_rows_and_columns_of_a_matrix(names: list[str] | None) -> None:
+    by_row = [f"R[{row},{column}]" for row in "012" for column in "012"]
+    values = to_numbers(VECTORS, "rotation_matrix")
+    if names is None:
+        found = dict(zip(by_row, values.T, strict=True))
+    else:
+        found = dict(zip(names, values[:, [0, 3, 6, 1, 4, 7, 2, 5, 8]].T, strict=True))
+    entries, why = orientation(list(found), found)
+    assert [entry["columns"] for entry in entries] == [sorted(found)]
+    assert why == "orientation: a rotation matrix, by its numbers and names"

@@ -69,3 +69,34 @@ def test_columns_of_one_reason_stand_together() -> None:
     answered = reasons_left_out(["odd"], of(table), {"odd": ASKED})
     assert answered == "odd (what was asked: the answer takes the other)"
     assert words_of("Tip_X-img[px]") == {"tip", "x", "img", "px"}
+
+
+@pytest.mark.parametrize(
+    ("told", "sensed"),
+    [
+        (["p1_set", "p2_set"], ["p1_meas", "p2_meas"]),
+        (["pressure_cmd_1", "pressure_cmd_2"], ["pressure_sensor_1", "pressure_sensor_2"]),
+        (["u1", "u2"], ["force_x", "force_y", "force_z"]),
+    ],
+)
+def test_what_was_measured_beside_what_was_told_is_a_question(
+    tmp_path: Path, told: list[str], sensed: list[str]
+) -> None:
+    rng = np.random.default_rng(0)
+    names = [*told, *sensed, "x", "y", "z"]
+    pd.DataFrame(rng.uniform(20, 90, (60, len(names))), columns=names).to_csv(tmp_path / "arm.csv", index=False)
+    question = asked(tmp_path / "arm.csv")
+    assert question is not None
+    assert question.text.startswith(", ".join(sensed))
+    entries = [guess_entry(tmp_path / "arm.csv", "Arm", "arm.csv", None, answer)[0] for answer in (0, 1)]
+    assert [entry["commands"] for entry in entries] == [told, [*told, *sensed]]
+    assert all(entry["positions"] == ["x", "y", "z"] for entry in entries)
+
+
+def test_one_marker_in_two_units_is_a_question(tmp_path: Path) -> None:
+    table = columns("u1", "u2", "x", "y", "z")
+    table = table.assign(**{f"{axis}_m": table[axis] / 1000 for axis in "xyz"})
+    table.to_csv(tmp_path / "arm.csv", index=False)
+    question = asked(tmp_path / "arm.csv")
+    assert question is not None
+    assert "another frame or unit" in question.text

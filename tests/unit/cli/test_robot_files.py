@@ -7,6 +7,7 @@ import pytest
 from softkin.cli.robot_files import robot_files
 from softkin.core.errors import DataError
 from softkin.data.readers.file_bundle import is_bundle
+from softkin.data.readers.table_formats import open_table
 
 
 @pytest.fixture
@@ -38,8 +39,7 @@ def test_files_of_the_same_columns_are_trials(folder: Path, names: list[str]) ->
         assert is_bundle(found.path.read_bytes()[:100])
         assert found.options == {"files": names}
         assert "so trials; each is a session" in found.reasons[0]
-        by_group = {"file": "", "session": "session", "split": {"method": "group", "column": "session"}}
-        assert found.entry(by_group) == {"session": "session", "split": {"method": "session"}}
+        assert found.entry({"file": "", "session": "session"}) == {"session": "session"}
     assert not found.path.exists()
 
 
@@ -64,3 +64,12 @@ def test_a_file_that_cannot_be_read_is_named(folder: Path) -> None:
     (folder / "take.csv").write_text("1,2\n3,4\n")
     with pytest.raises(DataError, match=r"take.csv, line 1: no header"), robot_files(["trial 1.csv", "take.csv"], {}):
         raise AssertionError("opened")
+
+
+def test_trials_of_other_columns_and_folders_are_said(folder: Path) -> None:
+    (folder / "trial 3.csv").write_text("u1,X,y,z\n1,2,3,4\n")
+    with pytest.raises(DataError, match="columns differ"), robot_files(["trial *.csv"], {}) as found:
+        open_table(found.path, found.options)
+    with pytest.raises(DataError) as raised, robot_files(["."], {}):
+        pass
+    assert "that is a folder" in str(raised.value.fix)

@@ -221,3 +221,10 @@ def test_a_row_of_unknown_time_or_session_is_a_hole_too() -> None:
     np.testing.assert_array_equal(found.memory[3], robot.along(COMMANDS[3:4])[0])
     np.testing.assert_array_equal(found.memory[4:], robot.along(COMMANDS[4:]))
     assert found.session.tolist() == [1, 1, 0, 1, 2, 2]
+
+
+def test_a_clock_in_milliseconds_counts_no_poses() -> None:
+    commands = np.random.default_rng(0).uniform(size=(50, 2))
+    assert recording_of(commands, np.arange(50) * 20, None, place).order.tolist() == [*range(1, 51)]
+    counted = np.delete(np.arange(51), 7)
+    assert recording_of(commands, counted, None, place).order.tolist() == counted.tolist()

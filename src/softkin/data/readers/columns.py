@@ -15,7 +15,7 @@ UNUSED, ORIENTATION = "unused_columns", "orientation_columns"
 #: From more on it is said what they cost.
 MANY_COMMANDS = 64
 #: Words of a column's name that say an orientation.
-ORIENTATION_WORDS = "roll pitch yaw rpy quaternion quat rotation rot orientation euler"
+ORIENTATION_WORDS = "roll pitch yaw rpy quaternion quat rotation rot orientation euler rotvec rodrigues"
 _ORIENTATION = frozenset([*ORIENTATION_WORDS.split(), "qx", "qy", "qz", "qw"])
 _AXIS = re.compile(r"(?<![A-Za-z])[xyz](?![A-Za-z])|(?<![A-Z])[XYZ](?![A-Za-z])")
 _UNIT = re.compile(r"[\[(_ .](mm|cm|m|in|px|pixels?)[\])]?$")
@@ -33,6 +33,20 @@ def axis_of(name: str) -> tuple[str, str] | None:
     if len(axes) != 1:
         return None
     return name[: axes[0].start()] + name[axes[0].end() :], axes[0].group().lower()
+
+
+def family_of(name: str, by_unit: bool = True) -> tuple[str, str] | None:
+    """As `axis_of`, but axes in small letters and in capitals are told apart, since `X_1` and `y_1` are not of one
+    marker; and with `by_unit` markers in other units: `x` and `x_m`.
+
+    >>> family_of("X_1"), family_of("x_m")
+    (('_1 X', 'x'), (' m', 'x'))
+    """
+    axis = axis_of(name)
+    if axis is None:
+        return None
+    capital = "X" * _AXIS.findall(_UNIT.sub("", name))[0].isupper()
+    return f"{axis[0]} {capital}{(unit_of(name) or '') * by_unit}", axis[1]
 
 
 def unit_of(name: str) -> str | None:

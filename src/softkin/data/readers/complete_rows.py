@@ -21,8 +21,9 @@ REFUSE, DROP_ROWS, DROP_MARKERS = MISSING = ("refuse", "drop_rows", "drop_marker
 #: What is left out is called so in descriptions and data cards: rows in which a number is missing, markers that are
 #: lost in some rows ({"columns": names, "rows": how many}), rows that have no partner in another file.
 GAPS, LOST_MARKERS, UNJOINED = COUNTED = ("rows_with_gaps", "markers_with_gaps", "rows_without_partner")
-#: A marker at exactly 0 was lost where the other rows come no nearer to 0, in one coordinate, than this share of the
-#: marker's range.
+#: What trackers and their users write in all coordinates of a marker that is lost.
+FILLED = (0.0, -1.0, *(sign * float("9" * n) for n in (2, 3, 4, 5, 6) for sign in (1, -1)), -32768.0, 32767.0, 65535.0)
+#: A marker there was lost where its other rows come no nearer, in one coordinate, than this share of its range.
 FAR_FROM_ZERO = 0.1
 
 logger = logging.getLogger("softkin")
@@ -104,37 +105,48 @@ def _lost_markers(n_lost: NDArray[np.intp], names: Sequence[str], dimensions: in
     return lost
 
 
-def zeros_of_lost_markers(positions: Array, dimensions: int) -> NDArray[np.bool_]:
-    """Where a marker was lost and stands at exactly 0 in all coordinates (n_rows, n_markers): its other rows do not
-    come near 0. A marker that is there in most rows, or moves through 0, was not lost.
+def lost_markers(positions: Array, dimensions: int) -> NDArray[np.bool_]:
+    """Where a marker was lost and all its coordinates stand at one number of `FILLED` (n_rows, n_markers): its other
+    rows do not come near. A marker that is there in most rows, or moves through it, was not lost.
     """
     points = positions.reshape(len(positions), -1, dimensions)
-    is_zero: NDArray[np.bool_] = np.asarray((points == 0).all(axis=2))
-    for marker in np.flatnonzero(is_zero.any(axis=0) & ~is_zero.all(axis=0)):
-        seen = points[~is_zero[:, marker] & ~np.isnan(points[:, marker]).any(axis=1), marker]
-        if len(seen) < is_zero[:, marker].sum():  # it stands there
-            is_zero[:, marker] = False
+    is_lost = np.zeros(points.shape[:2], dtype=bool)
+    for number in FILLED:
+        is_lost |= _stands_far_off(points, number)
+    return is_lost
+
+
+def _stands_far_off(points: Array, number: float) -> NDArray[np.bool_]:
+    """Where a marker stands at a number in all coordinates, and other rows of it do not come near (n_rows, n_markers);
+    where it stands there in all rows it is not lost.
+    """
+    stands: NDArray[np.bool_] = np.asarray((points == number).all(axis=2))
+    for marker in np.flatnonzero(stands.any(axis=0) & ~stands.all(axis=0)):
+        seen = points[~stands[:, marker] & ~np.isnan(points[:, marker]).any(axis=1), marker]
+        if len(seen) < stands[:, marker].sum():  # it stands there
+            stands[:, marker] = False
             continue
-        low, high = seen.min(axis=0), seen.max(axis=0)
+        low, high = seen.min(axis=0) - number, seen.max(axis=0) - number
         is_far = np.maximum(low, -high).max() > FAR_FROM_ZERO * (high - low).max()
         if not is_far:
-            is_zero[:, marker] = False
-    return np.asarray(is_zero & ~is_zero.all(axis=0))
+            stands[:, marker] = False
+    return np.asarray(stands & ~stands.all(axis=0))
 
 
 def _find_zeros(
     positions: Array, names: Sequence[str], dimensions: int, missing: str, place: Callable[[int], str]
 ) -> None:
-    """Make NaN of the zeros of lost markers, or refuse them."""
-    is_zero = zeros_of_lost_markers(positions, dimensions)
+    """Make NaN of the zeros, and their like, of lost markers, or refuse them."""
+    is_zero = lost_markers(positions, dimensions)
     if not is_zero.any():
         return
     if missing == REFUSE:
         rows = np.flatnonzero(is_zero.any(axis=1))
         marker = int(np.argmax(is_zero[rows[0]]))
+        number = positions[rows[0], marker * dimensions]
         count = f" ({listed('row', rows.tolist())})" if len(rows) > 1 else ""
         raise DataError(
-            f"a marker at exactly 0, far from where it is in other rows: its tracker lost it{count}",
+            f"a marker at exactly {number:g}, far from where it is in other rows: its tracker lost it{count}",
             where=f"{place(int(rows[0]))}, columns {', '.join(names[marker * dimensions : (marker + 1) * dimensions])}",
             fix=f"delete the rows, or write missing: {DROP_ROWS} or missing: {DROP_MARKERS} into the entry",
         )

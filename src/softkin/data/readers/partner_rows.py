@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from softkin.core.errors import DataError
 from softkin.core.samples import Array
 from softkin.data.missing_values import lacks_value
-from softkin.data.split import times
+from softkin.data.times import times
 
 Rows = NDArray[np.intp]
 NEAREST, HOLD, MEAN = RESAMPLING = ("nearest", "hold", "mean")

@@ -38,6 +38,12 @@ class StackedTables:
                     where=f"file {name}",
                     fix="give all trials the same columns, or write `join` where files are parts of each row",
                 )
+            if set(zip(other.names, other.units, strict=False)) != set(zip(table.names, table.units, strict=False)):
+                raise DataError(
+                    f"units differ from those of {first}: {_differing(table, other)}",
+                    where=f"file {name}",
+                    fix="bring the columns of all trials to the same units",
+                )
         self.names: tuple[str, ...] = (SESSION, *(name for name in self._own if name != SESSION))
 
     @property
@@ -110,6 +116,13 @@ class StackedTables:
         for at, name in enumerate(numbers):
             wide[:, at] = by_name[name]
         return wide, [by_name[name] for name in others]
+
+
+def _differing(one: Table, other: Table) -> str:
+    """The first column whose unit is another in the other table, with both."""
+    first, second = (dict(zip(table.names, table.units, strict=False)) for table in (one, other))
+    name = next(name for name in one.names if first.get(name) != second.get(name))
+    return f"'{name}' in {first.get(name) or 'none that is told'} there, in {second.get(name) or 'none'} here"
 
 
 def _session(number: int, own: NDArray[Any] | None, n_rows: int) -> NDArray[Any]:

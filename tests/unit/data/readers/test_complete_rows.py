@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from softkin.core.errors import DataError
-from softkin.data.readers.complete_rows import DROP_MARKERS, DROP_ROWS, REFUSE, Whole, whole, zeros_of_lost_markers
+from softkin.data.readers.complete_rows import DROP_MARKERS, DROP_ROWS, REFUSE, Whole, lost_markers, whole
 
 NAMES = [f"{marker}_{axis}" for marker in ("base", "tip") for axis in "xyz"]
 
@@ -89,14 +89,14 @@ def test_zeros_of_a_marker_that_is_there_are_positions() -> None:
     _, positions = robot()
     positions[:, :3] = 0.0  # the base is the origin
     displaced = positions[:, 3:] - positions[0, 3:]  # from the first pose
-    assert not zeros_of_lost_markers(np.hstack([positions[:, :3], displaced]), 3).any()
+    assert not lost_markers(np.hstack([positions[:, :3], displaced]), 3).any()
     through = np.column_stack([np.linspace(-50, 50, 21), np.zeros(21)])
-    assert not zeros_of_lost_markers(through, 2).any()
+    assert not lost_markers(through, 2).any()
     lost = np.where(np.arange(21)[:, None] % 5 == 0, 0.0, through + np.array([0.0, 60.0]))
-    assert zeros_of_lost_markers(lost, 2).sum() == 5
+    assert lost_markers(lost, 2).sum() == 5
 
 
 def test_a_marker_that_stands_at_the_origin_in_most_rows_is_there() -> None:
     _, positions = robot()
     positions[1:, :3] = 0.0
-    assert not zeros_of_lost_markers(positions, 3).any()
+    assert not lost_markers(positions, 3).any()

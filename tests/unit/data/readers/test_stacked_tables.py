@@ -69,3 +69,10 @@ def test_trials_of_joined_parts_say_which_rows_lack_a_partner() -> None:
     assert both.unjoined is not None
     assert both.unjoined.tolist() == [False, False, True, False]
     assert both.place(3) == "file u.csv, line 3 with file x.csv, line 2"
+
+
+def test_trials_in_other_units_are_refused() -> None:
+    one, other = (MemoryTable(("x",), (np.ones(3),), units=(unit,)) for unit in ("m", "mm"))
+    with pytest.raises(DataError, match="'x' in m there, in mm here") as raised:
+        StackedTables([("a.csv", one), ("b.csv", other)])
+    assert raised.value.where == "file b.csv"
