@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from softkin.core.errors import DataError
 from softkin.core.samples import Array
 from softkin.data.readers.bad_rows import FIX_MISSING, listed
-from softkin.data.readers.memory_table import row_from_0
+from softkin.data.readers.memory_table import Table, from_cells, row_from_0
+from softkin.data.readers.nested_values import columns_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,6 +112,25 @@ class ArrowColumns:
                 where=f"{self.place(int(np.argmax(bad)))}, column '{name}'",
                 fix=FIX_MISSING,
             )
+
+
+def spread(columns: ArrowColumns, schema: Any) -> Table:
+    """The same columns; where values of some, by the `schema` of pyarrow, are lists or records, a column for each of
+    their parts.
+
+    Raises:
+        DataError: lists of one column have different lengths, or the file is damaged.
+    """
+    import pyarrow as pa
+
+    if not any(pa.types.is_nested(field.type) for field in schema):
+        return columns
+    try:
+        records = columns.load(list(columns.names)).to_pylist()
+    except (pa.ArrowException, OSError) as error:
+        raise unreadable(columns.kind, error) from error
+    found = columns_of(records)
+    return from_cells(list(found), list(found.values()))
 
 
 def unreadable(kind: str, error: Exception) -> DataError:

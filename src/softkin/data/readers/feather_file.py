@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from softkin.data.readers.arrow_columns import ArrowColumns, unreadable
+from softkin.data.readers.arrow_columns import ArrowColumns, spread, unreadable
 from softkin.data.readers.memory_table import Table
 
 FIRST_BYTES = (b"ARROW1", b"FEA1")
@@ -22,7 +22,8 @@ def open_table(path: Path, _source: Mapping[str, Any]) -> Table:
     from pyarrow import feather
 
     try:
-        names = feather.read_table(path, memory_map=True).column_names
+        schema = feather.read_table(path, memory_map=True).schema
     except (pa.ArrowException, OSError) as error:
         raise unreadable("Feather", error) from error
-    return ArrowColumns(tuple(names), lambda columns: feather.read_table(path, columns=columns), "Feather")
+    columns = ArrowColumns(tuple(schema.names), lambda names: feather.read_table(path, columns=names), "Feather")
+    return spread(columns, schema)

@@ -10,9 +10,11 @@ from typing import Any
 from softkin.core.errors import DataError
 from softkin.data.readers.delimited_text import DelimitedText
 from softkin.data.readers.memory_table import Table
-from softkin.data.readers.text_layout import TextLayout
+from softkin.data.readers.text_encoding import decoded
+from softkin.data.readers.text_layout import SAMPLE_BYTES, TextLayout
 
-FIRST_WORDS = (b"Format Version,", b"\xef\xbb\xbfFormat Version,")
+#: Excel writes semicolons or tabs in place of commas when it saves an export.
+FIRST_WORDS = tuple(mark + b"Format Version" + by for mark in (b"", b"\xef\xbb\xbf") for by in (b",", b";", b"\t"))
 _UNITS = {"Millimeters": "mm", "Centimeters": "cm", "Meters": "m", "Inches": "in"}
 _LINES = 20
 
@@ -24,9 +26,11 @@ def open_table(path: Path, source: Mapping[str, Any]) -> Table:
     Raises:
         DataError: its rows of names and axes are not where Motive writes them.
     """
-    with open(path, encoding="utf-8-sig", newline="") as file:
-        lines = [line for _, line in zip(range(_LINES), file, strict=False)]
-    rows = [next(csv.reader([line]), []) for line in lines]
+    with open(path, "rb") as file:
+        text, encoding = decoded(file.read(SAMPLE_BYTES), is_whole=not file.read(1))
+    lines = text.splitlines()[:_LINES]
+    delimiter = lines[0][lines[0].index("Format Version") + len("Format Version")]
+    rows = [next(csv.reader([line], delimiter=delimiter), []) for line in lines]
     by_label = {row[1]: row for row in rows if len(row) > 1 and row[1] in ("Type", "Name")}
     frame = next((place for place, row in enumerate(rows) if row[:1] == ["Frame"]), None)
     if frame is None or "Name" not in by_label or len(by_label["Name"]) != len(rows[frame]):
@@ -40,5 +44,5 @@ def open_table(path: Path, source: Mapping[str, Any]) -> Table:
     header = dict(zip(rows[0][::2], rows[0][1::2], strict=False))
     unit = _UNITS.get(header.get("Length Units", ""), "")
     units = tuple(unit if kind == "Position" else "" for kind in kinds)
-    layout = TextLayout("utf-8-sig", ",", frame, tuple(names), 1, units)
+    layout = TextLayout(encoding, delimiter, frame, tuple(names), 1, units)
     return DelimitedText(path, layout, called=source.get("file", ""))

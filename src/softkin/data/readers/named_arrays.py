@@ -27,6 +27,7 @@ def table_of_variables(variables: Mapping[str, Any]) -> MemoryTable:
         DataError: trials have different fields, or no array has rows.
     """
     arrays: dict[str, NDArray[Any]] = {}
+    variables = _unwrapped(variables)
     structs = {name: value for name, value in variables.items() if isinstance(value, dict)}
     are_trials = len(structs) > 1 and len({tuple(sorted(struct)) for struct in structs.values()}) == 1
     if are_trials:
@@ -48,19 +49,34 @@ def table_of_arrays(arrays: Mapping[str, NDArray[Any]]) -> MemoryTable:
     """The table of all arrays (n_rows, ...) of numbers or text whose first axis is as long as most are.
 
     An array `p` of three numbers per row becomes `p_1`, `p_2`, `p_3`, or `p_x`, ... where its name says position.
+    Arrays whose rows stand along their last axis are turned; of trials by rows, all of one shape, a column `session`
+    numbers the trials.
 
     Raises:
         DataError: no array has rows; lists all with their shapes.
     """
-    usable = {name: array for name, array in arrays.items() if array.ndim and array.dtype.kind in "fiubUO"}
-    lengths = Counter(len(array) for array in usable.values() if len(array) > 1)
+    usable = {name: array for name, array in _fields_of(arrays).items() if array.dtype.kind in "fiubUO" and array.ndim}
+    usable, lengths = _by_trials(usable), Counter(size for array in usable.values() for size in {*array.shape} - {1, 0})
     if not lengths:
         shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays.items()) or "none"
         raise DataError(f"no array has a row per pose: {shapes}", fix="store arrays with one row per pose")
-    n_rows = lengths.most_common(1)[0][0]
-    left = [f"{name} {array.shape}" for name, array in arrays.items() if name not in usable or len(array) != n_rows]
+    if SESSION in usable and SESSION not in arrays:
+        n_rows = len(usable[SESSION])
+    else:
+        n_rows = max(lengths, key=lambda size: (lengths[size], size))
+    usable = {name: _turned(name, array, n_rows) for name, array in usable.items()}
+    left = [
+        f"{name} {array.shape}"
+        for name, array in arrays.items()
+        if len(usable.get(name, ())) != n_rows and not array.dtype.names
+    ]
     if left:
-        logger.info("arrays of %d rows are read; left out: %s", n_rows, ", ".join(left))
+        logger.log(
+            logging.WARNING if _hold_rows(arrays, left) else logging.INFO,
+            "arrays of %d rows are read; left out: %s",
+            n_rows,
+            ", ".join(left),
+        )
     names: list[str] = []
     columns: list[NDArray[Any]] = []
     for name, array in usable.items():
@@ -71,6 +87,58 @@ def table_of_arrays(arrays: Mapping[str, NDArray[Any]]) -> MemoryTable:
         names += _names(name, array.shape[1:])
         columns += list(flat.T)
     return MemoryTable(tuple(names), tuple(columns))
+
+
+def _unwrapped(variables: Mapping[str, Any]) -> dict[str, Any]:
+    """The variables, structs within structs brought up: `exp.data.u` becomes `data.u` of the struct `exp`."""
+    found: dict[str, Any] = {}
+    for name, value in variables.items():
+        inner = {key: part for key, part in value.items() if isinstance(part, dict)} if isinstance(value, dict) else {}
+        if not inner:
+            found[name] = value
+            continue
+        own = {key: part for key, part in value.items() if key not in inner}
+        found |= {name: own} if own else {}
+        found |= {key if key not in variables else f"{name}_{key}": part for key, part in _unwrapped(inner).items()}
+    return found
+
+
+def _fields_of(arrays: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
+    """The arrays, each field of one with named fields as an array of its own."""
+    found: dict[str, NDArray[Any]] = {}
+    for name, array in arrays.items():
+        for field in array.dtype.names or ("",):
+            found[field if field and field not in arrays else name] = array[field] if field else array
+    return found
+
+
+def _by_trials(arrays: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
+    """The arrays; where all begin with as many trials and rows, these rows one below the other, and their trial."""
+    shapes = {array.shape[:2] for array in arrays.values()}
+    if len(arrays) < 2 or len(shapes) > 1 or not all(array.ndim == 3 for array in arrays.values()):
+        return dict(arrays)
+    (n_trials, n_rows) = next(iter(shapes))
+    if n_rows <= max(n_trials, *(array.shape[2] for array in arrays.values())):
+        return dict(arrays)
+    logger.info("%d trials of %d rows", n_trials, n_rows)
+    stacked = {name: array.reshape(n_trials * n_rows, -1) for name, array in arrays.items()}
+    return {SESSION: np.repeat(np.arange(1, n_trials + 1), n_rows)} | stacked
+
+
+def _turned(name: str, array: NDArray[Any], n_rows: int) -> NDArray[Any]:
+    """The array with its rows along the first axis, where they are along the last one alone."""
+    if len(array) == n_rows or array.shape[-1] != n_rows:
+        return array
+    logger.info("%s %s is turned: its rows stand along the last axis", name, array.shape)
+    return array.T
+
+
+def _hold_rows(arrays: Mapping[str, NDArray[Any]], left: Sequence[str]) -> bool:
+    """Whether some of those that are `left` out are tables of numbers, too, such as a test set."""
+    named = {told.split(" (")[0] for told in left}
+    return any(
+        array.ndim > 1 and array.dtype.kind in "fiu" and len(array) > 1 for n, array in arrays.items() if n in named
+    )
 
 
 def _names(name: str, shape: tuple[int, ...]) -> list[str]:

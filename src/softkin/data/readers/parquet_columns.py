@@ -6,11 +6,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from softkin.data.readers.arrow_columns import ArrowColumns, unreadable
+from softkin.data.readers.arrow_columns import ArrowColumns, spread, unreadable
 from softkin.data.readers.memory_table import Table
 
 
-def open_parquet(path: Path) -> ArrowColumns:
+def open_parquet(path: Path) -> Table:
     """The columns of the Parquet file `path`.
 
     Raises:
@@ -20,10 +20,11 @@ def open_parquet(path: Path) -> ArrowColumns:
     import pyarrow.parquet as pq
 
     try:
-        names = pq.read_schema(path).names
+        schema = pq.read_schema(path)
     except (pa.ArrowException, OSError) as error:
         raise unreadable("Parquet", error) from error
-    return ArrowColumns(tuple(names), lambda columns: pq.read_table(path, columns=columns), "Parquet")
+    columns = ArrowColumns(tuple(schema.names), lambda names: pq.read_table(path, columns=names), "Parquet")
+    return spread(columns, schema)
 
 
 def open_table(path: Path, _source: Mapping[str, Any]) -> Table:

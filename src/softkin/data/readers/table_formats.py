@@ -26,6 +26,7 @@ from softkin.data.readers import (
     vicon_export,
 )
 from softkin.data.readers.memory_table import Table
+from softkin.data.readers.text_encoding import in_utf8
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,8 +48,8 @@ def _is_of_numpy(start: bytes) -> bool:
 
 
 def _is_json(start: bytes) -> bool:
-    """An object, or a list of objects or nothing; a row of text may begin with a list."""
-    return bool(re.match(rb"(\xef\xbb\xbf)?\s*(\{\s*[\"}]|\[\s*[{\]])", start))
+    """An object, or a list of objects, lists of names or numbers, or nothing; a row of text may begin with a list."""
+    return bool(re.match(rb"(\xef\xbb\xbf)?\s*(\{\s*[\"}]|\[\s*([{\]]|\[\s*(\"|-?[\d.]+([eE][-+]?\d+)?\s*,)))", start))
 
 
 def _open_several(path: Path, source: Mapping[str, Any]) -> Table:
@@ -94,7 +95,7 @@ def open_table(path: str | Path, source: Mapping[str, Any]) -> Table:
         DataError: the file is none that can be read, or is empty, or has no header.
     """
     with open(path, "rb") as file:
-        start = file.read(FIRST_BYTES)
+        start = in_utf8(file.read(FIRST_BYTES))
     name, kind = next((name, kind) for name, kind in TABLE_FORMATS.items() if kind.is_of(start))
     for begins, what, fix in NO_TABLES:
         if name == "text" and begins.match(start):

@@ -35,3 +35,10 @@ def decoded(start: bytes, is_whole: bool) -> tuple[str, str]:
     if not text.strip():
         raise DataError("the file is empty", fix="export it again, with a header and rows of numbers")
     return text, encoding
+
+
+def in_utf8(start: bytes) -> bytes:
+    """The first bytes of a file, in UTF-8 where they are UTF-16 by its mark; others as they are."""
+    if start.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return start.decode("utf-16", errors="ignore").encode()
+    return start

@@ -60,7 +60,7 @@ def test_other_kinds_of_numbers_and_other_columns_are_read(tmp_path: Path) -> No
         ([None, 1.0, 2.0], ["row 0 (the first is 0), column 'x': no value"]),
         (["1", "2", "3"], ["column 'x': values of type string, not numbers", "store the column as numbers"]),
         ([True, False, True], ["column 'x': values of type bool, not numbers"]),
-        ([[1.0], [2.0], [3.0]], ["column 'x': values of type list"]),
+        ([b"1", b"2", b"3"], ["column 'x': values of type binary"]),
         ([1, 2**53 + 1, 3], ["column 'x'", "9007199254740993", "rescale"]),
     ],
 )
@@ -71,7 +71,15 @@ def test_a_bad_column_is_an_error(tmp_path: Path, column: list[Any], says: list[
         assert part in str(error.value)
 
 
-@pytest.mark.parametrize("column", [[None, "a"], [float("nan"), 1.0], [[1], [2]]])
+@pytest.mark.parametrize("column", [[None, "a"], [float("nan"), 1.0], [b"\xff", b"a"]])
 def test_a_column_that_cannot_split_is_an_error(tmp_path: Path, column: list[Any]) -> None:
     with pytest.raises(DataError, match="column 'x'"):
         open_parquet(write(tmp_path, x=column)).read([], [0])
+
+
+def test_lists_and_records_become_columns(tmp_path: Path) -> None:
+    table = open_parquet(write(tmp_path, u=[[1.0, 2.0], [3.0, 4.0]], tip=[{"x": 5.0, "y": 6}, {"x": 7.0, "y": 8}]))
+    assert table.names == ("u1", "u2", "tip.x", "tip.y")
+    assert table.read(range(4), [])[0].tolist() == [[1, 2, 5, 6], [3, 4, 7, 8]]
+    with pytest.raises(DataError, match="cells hold lists"):
+        open_parquet(write(tmp_path, u=[[1.0, 2.0], [3.0]]))

@@ -6,6 +6,7 @@ import pytest
 
 from softkin.core.errors import DataError
 from softkin.data.readers.motive_export import open_table
+from softkin.data.readers.table_formats import open_table as open_any
 from tests.conftest import HOUSE
 
 
@@ -45,3 +46,14 @@ def test_columns_of_a_rigid_body_are_named_by_what_they_are(tmp_path: Path) -> N
         "tip_z",
         "tip_Mean Marker Error",
     )
+
+
+@pytest.mark.parametrize(
+    ("delimiter", "mark", "encoding"), [(";", ",", "utf-8"), ("\t", ".", "utf-16"), (";", ".", "utf-8-sig")]
+)
+def test_an_export_that_was_saved_again_is_read(tmp_path: Path, delimiter: str, mark: str, encoding: str) -> None:
+    text = (HOUSE / "tests" / "cases" / "06_motive_export.csv").read_text().replace(".", "@")
+    (tmp_path / "take").write_bytes(text.replace(",", delimiter).replace("@", mark).encode(encoding))
+    table = open_any(tmp_path / "take", {})
+    assert table.names[2:5] == ("arm:Marker1_x", "arm:Marker1_y", "arm:Marker1_z")
+    assert table.read(range(2, 5), [], gaps=True)[0][0].tolist() == [6.431284, 20.461680, 54.319237]
