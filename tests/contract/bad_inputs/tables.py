@@ -164,7 +164,7 @@ CASES = [
         ("row 3", "no finite"),
     ),
     BadInput("Parquet with whole numbers beyond floats", parquet(put("u1", 2**60 + 1)), ("column 'u1'", "cannot hold")),
-    BadInput("Parquet with lists", parquet(put("u1", [[1.0]] * ROWS)), ("column 'u1'", "not numbers")),
+    BadInput("Parquet with lists", parquet(put("u1", [[1.0]] * ROWS)), ("no column 'u1'", "u1_1")),
     BadInput("Parquet without the column", parquet(lambda t: t.pop("u2")), ("no column 'u2'",)),
     BadInput(
         "a quaternion that is not of unit norm", turned("quaternion_wxyz", 0.5), ("columns o0, o1, o2, o3", "norm is")
