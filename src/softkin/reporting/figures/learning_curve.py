@@ -10,6 +10,7 @@ from softkin.core.csv_tables import read_csv
 from softkin.core.escaping import figure_text
 from softkin.reporting.figures.spec import CampaignResults, FigureSpec
 from softkin.reporting.figures.style import LEAST_MM, LOOKS, PAGE, legend_below, logarithmic, panels, sample
+from softkin.reporting.units import UNIT, heading_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -17,11 +18,13 @@ if TYPE_CHECKING:
 
 
 def frame(results: CampaignResults) -> pd.DataFrame:
-    """Columns model, preset, interval_method, dataset, share, n_rows, rmse_mm, leak: a row per run and share."""
+    """Columns model, preset, interval_method, dataset, share, n_rows, rmse_mm, leak: a row per run and share; `unit` of
+    its errors where a dataset is not in mm.
+    """
     if results.learning_curve is None:
         return pd.DataFrame()
     curves = read_csv(results.learning_curve)
-    columns = ["dataset", "model", "preset", "share", "n_rows", "rmse_mm", "leak"]
+    columns = ["dataset", "model", "preset", "share", "n_rows", "rmse_mm", "leak", *([UNIT] if UNIT in curves else [])]
     return curves[columns].assign(interval_method="")
 
 
@@ -35,7 +38,7 @@ def plot(frame: pd.DataFrame, results: CampaignResults) -> Figure:
             _draw(panel, rows)
             name = figure_text(results.dataset_titles[dataset].split(" (")[0])
             panel.set_title(f"{name}{' (leak)' if rows['leak'].any() else ''}\n{preset}", fontsize=8)
-        line[0].set_ylabel("RMSE on test (mm)")
+        line[0].set_ylabel(f"RMSE on test ({heading_of(frame)})")
     for panel in axes[-1]:
         panel.set_xlabel("share of train")
     models = list(frame["model"].unique())

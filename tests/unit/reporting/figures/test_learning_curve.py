@@ -44,3 +44,12 @@ def test_each_model_has_its_line_in_the_panel_of_preset_and_dataset(tmp_path: Pa
 
 def test_without_curves_nothing_is_drawn(tmp_path: Path) -> None:
     assert frame(results(tmp_path, None)).empty
+
+
+def test_errors_are_headed_by_the_unit_of_the_robot(tmp_path: Path) -> None:
+    row = {"dataset": "arm", "model": "svr", "preset": "paper", "n_rows": 10, "rmse_mm": 1.0, "leak": False}
+    for unit, headed in ((None, "mm"), ("px", "px")):
+        own = {} if unit is None else {"unit": unit}
+        pd.DataFrame([{**row, **own, "share": share} for share in (0.5, 1.0)]).to_csv(tmp_path / "c.csv", index=False)
+        campaign = results(tmp_path, tmp_path / "c.csv")
+        assert plot(frame(campaign), campaign).axes[0].get_ylabel() == f"RMSE on test ({headed})"
