@@ -23,7 +23,8 @@ ANGLES = ["roll", "pitch", "yaw"]
 @dataclass(frozen=True, slots=True)
 class Orientation:
     """Predicted `rotations` (n_rows, n_numbers), and the angle `bound_deg` in degrees, 0 to infinite, within which the
-    measured one is at the level that was asked for; `guarantee` is what that promises in-domain.
+    measured one is at the level that was asked for; `guarantee` is what that promises in-domain. The bound is the same
+    at all commands: in extrapolation it is no wider and promises nothing.
     """
 
     rotations: Array | pd.DataFrame
@@ -39,8 +40,8 @@ class Orientations:
     ) -> Orientation | None:
         """Which way the tip points at commands, and how far off that may be; None where the entry names no orientation.
 
-        A robot that remembers is taken to be sent each command from rest, as by `predict`; a recalibration does not
-        touch orientations.
+        A robot that remembers is taken to be sent each command from rest, as by `predict`. `recalibrate`, `p_values`,
+        `watch` and `command_for` know positions alone: none of them touches orientations or looks at them.
 
         Parameters:
             commands: (n_rows, n_commands), as those of `predict`.
