@@ -107,7 +107,7 @@ def compared(robot: CalibratedModel, targets: Array) -> Iterator[str]:
         scheme = f"damped {damping:g}{', stalls' if stalls else ''}"
         lines.append(line(scheme, robot, targets, commands, taken))
     began = time.process_time()
-    each = np.vstack([np.asarray(robot.command_for(target).commands) for target in targets])  # type: ignore[union-attr]
+    each = np.vstack([np.asarray(robot.command_for(target).commands) for target in targets])
     one_by_one = time.process_time() - began
     yield line("softkin", robot, targets, found.commands, float(np.median(own)))
     yield line("softkin, one by one", robot, targets, each, one_by_one)

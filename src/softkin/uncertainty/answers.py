@@ -27,7 +27,7 @@ def bounds_frame(asked: Any, bounds: Array, levels: Sequence[float] | None, coor
     """
     columns = [f"{side}_{name}" for name in coordinates for side in ("lower", "upper")]
     frames = [pd.DataFrame(np.reshape(one, (len(one), -1)), index_of(asked), columns) for one in bounds]
-    return frames[0] if levels is None else pd.concat(dict(zip(levels, frames, strict=True)), axis=1)
+    return frames[0] if levels is None else pd.concat(frames, axis=1, keys=levels)
 
 
 def index_of(asked: pd.DataFrame | pd.Series) -> pd.Index:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from softkin.core.samples import Array, Samples, informative_coordinates
 from softkin.models.spec import PointModel
-from softkin.uncertainty import calls
+from softkin.uncertainty import calls, chance_and_time
 from softkin.uncertainty.alarm import Watch
 from softkin.uncertainty.answers import bounds_frame, like
 from softkin.uncertainty.calibration_data import PointCalibration, Shell
@@ -121,7 +121,7 @@ class CalibratedModel(Inverse, Orientations, Suggestions):
 
     def watch(self, rate: float = 0.01, session: int | None = None, seed: int = 0) -> Watch:
         """An alarm fed pose by pose, from rest: `watch.see(command, position)`; `watch.worth`: is its rate promised?"""
-        rate = calls.level_of(rate, self.dataset, "rate of false alarms")
+        rate = chance_and_time.rate_of(rate, seed, self.dataset)
         moving = self._moving()
         moves = [name for name, moves in zip(self.names.coordinates, moving, strict=True) if moves]
         error = error_of(State(self, session), moving)
@@ -188,7 +188,7 @@ class CalibratedModel(Inverse, Orientations, Suggestions):
         and that holds for a pose of a new block; with too few for 90 % they count rows, and nothing is promised.
         """
         inputs = self._checked(commands)
-        calls.check_generator(rng, self.dataset)
+        chance_and_time.check_generator(rng, self.dataset)
         calls.check_same_rows(commands, positions, self.dataset)
         measured = calls.position_rows(positions, self.names, len(inputs), self.dataset)
         known, new = self._residuals(), measured - self._predicted(inputs)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
 from numbers import Real
 from typing import Any
@@ -136,10 +136,15 @@ def levels_of(confidence_levels: Any, where: str) -> tuple[list[float], bool]:
     """(confidence levels in the order given, whether it was one number).
 
     Raises:
-        ConfigError: no number, none, or not between 0 and 1.
+        ConfigError: no number, none, not between 0 and 1, or in what has no order.
     """
     is_one = not isinstance(confidence_levels, Iterable) or isinstance(confidence_levels, (str, bytes))
     is_one = is_one or (isinstance(confidence_levels, np.ndarray) and confidence_levels.ndim == 0)
+    if isinstance(confidence_levels, (Mapping, Set)):
+        kind = type(confidence_levels).__name__
+        raise ConfigError(
+            f"confidence levels in a {kind}", where=where, fix="pass one such as 0.9, or a list of several"
+        )
     given = [confidence_levels] if is_one else list(confidence_levels)
     if not given:
         raise ConfigError("no confidence level", where=where, fix="pass one such as 0.9, or several")
@@ -161,18 +166,6 @@ def level_of(level: Any, where: str, what: str = "confidence level") -> float:
     return number
 
 
-def check_generator(rng: Any, where: str) -> None:
-    """A random generator of NumPy, or None.
-
-    Raises:
-        ConfigError: it is another thing, such as a seed.
-    """
-    if rng is not None and not isinstance(rng, np.random.Generator):
-        raise ConfigError(
-            f"{rng!r} is no random generator", where=where, fix="pass numpy.random.default_rng(seed), or leave it out"
-        )
-
-
 def numbers(values: Rows, what: str, where: str) -> Array:
     """Values as 64-bit floats, without taking text, truth values or complex numbers for numbers.
 
@@ -185,7 +178,8 @@ def numbers(values: Rows, what: str, where: str) -> Array:
     if isinstance(values, pd.DataFrame):
         for place, name in enumerate(values.columns):
             column = values.iloc[:, place]
-            if not pd.api.types.is_numeric_dtype(column.dtype) or pd.api.types.is_bool_dtype(column.dtype):
+            is_number = pd.api.types.is_any_real_numeric_dtype(column.dtype)
+            if not is_number or pd.api.types.is_bool_dtype(column.dtype):
                 raise DataError(f"column '{name}' of {what} holds no numbers", where=where, fix=fix)
         return np.asarray(values.to_numpy(dtype=np.float64, na_value=np.nan))
     if np.ma.isMaskedArray(values):

@@ -12,6 +12,7 @@ from softkin.core.errors import DataError
 from softkin.core.samples import Array
 from softkin.models.estimators.in_sessions import UNSEEN, InSessions
 from softkin.uncertainty import calls
+from softkin.uncertainty.chance_and_time import session_of
 
 
 class Step(NamedTuple):
@@ -28,14 +29,8 @@ class State:
     def __init__(self, robot: Any, session: int | None = None, confidence_level: float = 0.9) -> None:
         self.robot, self.levels = robot, [confidence_level]
         self.estimator = robot.estimator if isinstance(robot.estimator, InSessions) else None
-        self.session = UNSEEN if session is None else float(session)
-        if session is not None and (self.estimator is None or self.session not in self.estimator.sessions_):
-            known = [] if self.estimator is None else [int(number) for number in self.estimator.sessions_]
-            raise DataError(
-                f"no session {session} in its recording ({known})",
-                where=robot.dataset,
-                fix="leave the session out; a new one has the average zero until it is recalibrated",
-            )
+        known = [] if self.estimator is None else list(self.estimator.sessions_)
+        self.session = UNSEEN if session is None else session_of(session, known, robot.dataset)
         self.halves: Array | float = 0.0 if self.estimator is None else self.estimator.robot.half_widths()
         self.memory: Array | None = None
         self.last: Array | None = None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import io
+import os
 from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
@@ -31,8 +32,10 @@ def load(path: str | Path, *, sha256: str | None = None, trust: bool = False) ->
         trust: load a file without a record and without a hash; by default it is refused.
 
     Raises:
-        ResultError: no such file; another hash; no record, hash or trust; of another version of softkin; no model.
+        ResultError: no path or file; another hash; no record, hash or trust; of another version of softkin; no model.
     """
+    if not isinstance(path, (str, os.PathLike)):
+        raise ResultError(f"{path!r} is no path", where="softkin.load", fix="name the calibrated_model.joblib of a run")
     file = Path(path)
     if not file.is_file():
         raise ResultError("no such file", where=path, fix="name the calibrated_model.joblib of a finished run")

@@ -21,3 +21,9 @@ def test_bounds_of_several_levels_lie_below_each() -> None:
     many = bounds_frame(TABLE, BOUNDS, [0.9, 0.8], ["m1_x"])
     assert list(many.columns) == [(level, side) for level in (0.9, 0.8) for side in ("lower_m1_x", "upper_m1_x")]
     pd.testing.assert_frame_equal(many[0.8], bounds_frame(TABLE, BOUNDS[1:], None, ["m1_x"]))
+
+
+def test_a_level_asked_twice_is_answered_twice() -> None:
+    twice = bounds_frame(TABLE, BOUNDS, [0.9, 0.9], ["m1_x"])
+    assert list(twice.columns.get_level_values(0)) == [0.9] * 4
+    np.testing.assert_array_equal(twice.to_numpy()[:, 2:], BOUNDS[1].reshape(2, 2))

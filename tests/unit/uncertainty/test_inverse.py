@@ -16,9 +16,9 @@ from softkin.core.samples import Array, Samples
 from softkin.models import MODELS
 from softkin.training.kinematic_model import FitSettings, fitted_model
 from softkin.uncertainty.calibrated import FittedModel, calibrated
+from softkin.uncertainty.command_answers import NEAREST, OUTSIDE, REACHABLE
 from softkin.uncertainty.failures import FailureClass
 from softkin.uncertainty.intervals import INTERVAL_METHODS
-from softkin.uncertainty.command_answers import NEAREST, OUTSIDE, REACHABLE
 from softkin.uncertainty.promise import Promise
 from tests.recorded_robot import NOISE_MM, bent, recorded_arm
 from tests.unit.uncertainty.small_robot import small_robot

@@ -110,3 +110,9 @@ def test_no_file_is_one_sentence(tmp_path: Path) -> None:
     for path in (tmp_path / "none.joblib", tmp_path):
         with pytest.raises(ResultError, match=r"no such file\n  fix: name the calibrated_model"):
             load(path)
+
+
+@pytest.mark.parametrize("path", [None, 5, b"model.joblib"])
+def test_what_is_no_path_is_refused(path: Any) -> None:
+    with pytest.raises(ResultError, match="is no path"):
+        load(path)

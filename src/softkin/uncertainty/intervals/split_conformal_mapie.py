@@ -7,6 +7,7 @@ from functools import partial
 
 import numpy as np
 
+from softkin.core.errors import ConfigError
 from softkin.core.samples import Array
 from softkin.uncertainty.calibration_data import PointCalibration
 from softkin.uncertainty.conformal import columns, conformal_rank, engine_level, global_random_state_kept, unbounded
@@ -15,6 +16,9 @@ from softkin.uncertainty.intervals.spec import MARGINAL, IntervalMethod, as_at_z
 
 def intervals(data: PointCalibration, confidence_levels: Sequence[float]) -> Array:
     """The paper's Eq. 5 and 6, one coordinate at a time; infinite where the calibration set is too small.
+
+    Raises:
+        ConfigError: a level so low that the smallest of all errors has it.
 
     Source: mapie.regression.SplitConformalRegressor with the score `absolute` and a fitted model.
     """
@@ -25,6 +29,12 @@ def intervals(data: PointCalibration, confidence_levels: Sequence[float]) -> Arr
     n = len(data.truth)
     result = unbounded(len(confidence_levels), data.new.shape)
     ranks = {place: conformal_rank(n, level) for place, level in enumerate(confidence_levels)}
+    if 1 in ranks.values():
+        raise ConfigError(
+            f"confidence level {confidence_levels[0]:g} is less than MAPIE takes of {n} calibration rows",
+            where="scp_mapie",
+            fix=f"ask for more than {1 / (n + 1):.2g}, or choose scp_crepes",
+        )
     finite = {place: engine_level(n, rank) for place, rank in ranks.items() if rank is not None}
     if not finite:
         return result
