@@ -19,11 +19,12 @@ PAGE = Path(__file__).parents[1] / "docs" / "latency.md"
 HEAD = """# What an answer costs
 
 Made by `make latency-page`: one command with a 90 % interval, in process, on one thread, median and 99 % quantile in ms
-of CPU time, of the best of three rounds of 300. Other programs do not count, but by filling the caches: on a machine
-that is busy all numbers are larger, and ratios say more. *Bare estimator* is its `predict` alone, *numpy by hand* the
-position of a Gaussian process in ten lines. *Loading* is all that a new process takes until its first answer, imports
-included, *memory* its largest size then. The C header's time is the mean of 6,000 commands, by the clock.
-*Difference* is the largest of positions and bounds to the model, on 10,000 commands inside and outside.
+of CPU time, of the best of three rounds of 300 (of one of 100, what takes more than 5 ms). Other programs do not count,
+but by filling the caches: on a machine that is busy all numbers are larger, and ratios say more. *Bare estimator* is
+its `predict` alone, *numpy by hand* the position of a Gaussian process in ten lines. *Loading* is all that a new
+process takes until its first answer, imports included, *memory* its largest size then. The C header's time is the mean
+of 6,000 commands, by the clock. *Difference* is the largest of positions and bounds to the model, on 10,000 commands
+inside and outside.
 
 | robot, model, method | asked | inside | outside | streaming | loading ms | memory MB | size kB | difference mm |
 | --- | --- | --- | --- | --- | --- | --- | --- | --- |
