@@ -58,5 +58,6 @@ def calibrate(
                         frames.append(frame)
         with replacing(intervals[name]) as temporary:
             table = pd.concat(frames, ignore_index=True) if frames else pd.DataFrame(columns=KEY)
-            table.to_parquet(temporary, row_group_size=ROW_GROUP)
+            # Bounds hardly repeat: a dictionary of them takes most of the time of writing, and a sixth of the file.
+            table.to_parquet(temporary, row_group_size=ROW_GROUP, use_dictionary=KEY)
         logger.info("%d of %d methods: %s around %d models", place + 1, len(methods), method.title, n_models)
