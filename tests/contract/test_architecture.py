@@ -113,15 +113,25 @@ def test_a_library_is_imported_in_one_place(library: str) -> None:
         assert library not in libraries or place.startswith(PLACES[library]), place
 
 
-def test_registries_import_no_learning_library() -> None:
-    """Snakemake imports them each time it starts: all that the rules import, read off the rules."""
-    rules = "".join(path.read_text() for path in RULES)
-    modules = sorted(set(re.findall(r"^(?:from|import) (softkin[\w.]*)", rules, re.MULTILINE)))
-    assert {"softkin.models", "softkin.uncertainty.regions", "softkin.cli.configuration"} <= set(modules)
+#: Scripts whose jobs fit nothing and score nothing.
+LIGHT = [path for path in SCRIPTS if path.stem in ("prepare", "build_tables", "summarise", "build_report")]
+LEARNING = {"scipy", "sklearn", "xgboost", "optuna", "mlflow", "matplotlib"}
+
+
+@pytest.mark.parametrize(
+    ("files", "among", "unwanted"),
+    [(RULES, "softkin.cli.configuration", LEARNING | {"pandas"}), (LIGHT, "softkin.data.prepare", LEARNING)],
+    ids=["rules", "scripts that fit nothing"],
+)
+def test_what_learns_nothing_imports_no_learning_library(files: list[Path], among: str, unwanted: set[str]) -> None:
+    """Snakemake imports all that the rules import, registries among it, each time it starts; each job starts anew."""
+    text = "".join(path.read_text() for path in files)
+    modules = sorted(set(re.findall(r"^(?:from|import) (softkin[\w.]*)", text, re.MULTILINE)))
+    assert {"softkin.models", "softkin.uncertainty.regions", among} <= set(modules)
     code = f"import sys, {', '.join(modules)}; "
     code += "print(*sorted({m.split('.')[0] for m in sys.modules}))"
     loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
-    assert not {"scipy", "sklearn", "xgboost", "optuna", "mlflow", "matplotlib", "pandas"} & set(loaded)
+    assert not unwanted & set(loaded)
 
 
 def test_nobody_asks_which_model_or_dataset_it_is() -> None:

@@ -20,6 +20,8 @@ Whole = NDArray[np.int64]
 #: Half-widths of the play operators, in units of each command's range: from the play of a drive to the friction of
 #: long tendons. Chosen before any fit, each twice the one before.
 WIDTHS = (0.0125, 0.025, 0.05, 0.1, 0.2)
+#: What a model may be told of the commands before, from nothing to most.
+NONE, PREVIOUS, PLAY = MEMORIES = ("none", "previous", "play")
 
 
 @dataclass(frozen=True, slots=True)

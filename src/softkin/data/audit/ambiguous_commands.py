@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from sklearn.neighbors import NearestNeighbors
 
 from softkin.core.rows import command_scale, row_groups, sampled_rows, stacked_commands, stacked_positions
 from softkin.core.samples import TRAIN, Array, Samples, informative_coordinates
@@ -58,6 +57,8 @@ def check(samples: Mapping[str, Samples], seed: int = 0) -> CheckResult:
 
 def _pairs(commands: Array, scale: Array, seed: int) -> Pairs:
     """Pairs (n_pairs, 2) of rows of equal commands; where these are few, of each row and its nearest command."""
+    from sklearn.neighbors import NearestNeighbors
+
     groups = row_groups(commands)
     order = np.random.default_rng(seed).permutation(len(groups))
     order = order[np.argsort(groups[order], kind="stable")]

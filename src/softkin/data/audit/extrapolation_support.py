@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import linprog
 
 from softkin.core.rows import command_scale, first_of_each, row_groups, sampled_rows
 from softkin.core.samples import EXTRAPOLATION, SUBSETS, TRAIN, Array, Samples
@@ -34,6 +33,8 @@ def off_hull(points: Array, hull: Array) -> NDArray[np.bool_]:
 
 
 def _is_off_hull(point: Array, hull: Array) -> bool:
+    from scipy.optimize import linprog
+
     along, length = hull @ point, np.linalg.norm(point)
     if along.max() < length**2 - TOLERANCE * length:
         return True

@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from sklearn.neighbors import NearestNeighbors
 
 from softkin.core.rows import (
     chunks,
@@ -74,6 +73,8 @@ def far_off(
     Neighbours are sought among commands in units of their `scale` (n_commands,). No row where the rows are too few to
     fit a plane through: the fit has degree 0.
     """
+    from sklearn.neighbors import NearestNeighbors
+
     poses = row_groups(positions)
     fit = fit_smoothly(commands, positions, first_of_each(poses), seed)
     mask = np.zeros(len(commands), dtype=bool)

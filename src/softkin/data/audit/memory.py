@@ -12,7 +12,6 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from sklearn.neighbors import NearestNeighbors
 
 from softkin.core.rows import command_scale
 from softkin.core.samples import TEST, TRAIN, VALIDATION, Array, Samples
@@ -125,6 +124,8 @@ def _remembers(
 
 def _neighbours_of(known: TimeResiduals) -> Any:
     """Rows (n_rows, N_NEIGHBOURS) nearest in command space, the row itself left out."""
+    from sklearn.neighbors import NearestNeighbors
+
     scaled = known.commands / command_scale(known.commands)
     near = NearestNeighbors(n_neighbors=min(N_NEIGHBOURS + 1, len(scaled))).fit(scaled)
     return near.kneighbors(scaled, return_distance=False)[:, 1:]

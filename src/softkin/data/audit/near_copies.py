@@ -8,17 +8,18 @@ distances to its neighbours. Distances are Euclidean, in standard deviations of 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import binom
-from sklearn.neighbors import NearestNeighbors
 
 from softkin.core.rows import command_scale, first_of_each, row_groups, sampled_rows
 from softkin.core.samples import TRAIN, Array, Samples
 from softkin.data.audit.copied_commands import MEASURED_ANEW
 from softkin.data.audit.findings import LEAK, LEAK_CONSEQUENCES, WARNING, CheckResult, Finding, finding_of_rows
+
+if TYPE_CHECKING:
+    from sklearn.neighbors import NearestNeighbors
 
 #: A command nearer than this share of the local spacing is a near copy.
 NEAR_SHARE = 0.01
@@ -34,6 +35,9 @@ MAX_TRAIN_COMMANDS, MAX_ROWS_CHECKED = 100_000, 2_000
 
 def check(samples: Mapping[str, Samples], seed: int = 0) -> CheckResult:
     """A finding for each subset with too many near copies; exact copies are left to their own check."""
+    from scipy.stats import binom
+    from sklearn.neighbors import NearestNeighbors
+
     train = samples[TRAIN].commands
     scale = command_scale(train)
     first = first_of_each(row_groups(train))

@@ -10,10 +10,6 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from scipy.stats import ks_2samp, wasserstein_distance
-from sklearn.ensemble import HistGradientBoostingClassifier
-from sklearn.metrics import roc_auc_score
-from sklearn.model_selection import StratifiedKFold, cross_val_predict
 
 from softkin.core.rows import command_scale, sampled_rows
 from softkin.core.samples import (
@@ -85,6 +81,8 @@ def _distances(train: Samples, other: Samples, seed: int) -> tuple[dict[str, dic
 
     Commands are in standard deviations on train, positions in mm; constant coordinates are left out.
     """
+    from scipy.stats import ks_2samp, wasserstein_distance
+
     scale = command_scale(train.commands)
     train_rows, other_rows = (sampled_rows(len(rows), MAX_ROWS_COMPARED, seed) for rows in (train, other))
     moving = informative_coordinates(train.positions)
@@ -104,6 +102,10 @@ def _auc(train: Array, other: Array, seed: int) -> tuple[float | None, float]:
     """Cross-validated AUC of a classifier of commands and their norm, and its standard error under chance; None with
     too few rows.
     """
+    from sklearn.ensemble import HistGradientBoostingClassifier
+    from sklearn.metrics import roc_auc_score
+    from sklearn.model_selection import StratifiedKFold, cross_val_predict
+
     parts = [part[sampled_rows(len(part), MAX_ROWS_CLASSIFIED, seed)] for part in (train, other)]
     n_train, n_other = map(len, parts)
     if min(n_train, n_other) < FEWEST_ROWS:

@@ -7,10 +7,12 @@ from typing import Self
 import numpy as np
 from sklearn.base import BaseEstimator, TransformerMixin
 
+from softkin.core.recording import MEMORIES as MEMORIES
+from softkin.core.recording import NONE as NONE
+from softkin.core.recording import PLAY as PLAY
+from softkin.core.recording import PREVIOUS as PREVIOUS
 from softkin.core.recording import WIDTHS, Array, input_parts, n_input_columns
 
-#: What a model may be told of the commands before, from nothing to most.
-NONE, PREVIOUS, PLAY = MEMORIES = ("none", "previous", "play")
 #: Places in `WIDTHS` of the play operators of each set that a study may choose.
 WIDTH_SETS = {"fine": (0, 2, 4), "coarse": (1, 3, 4), "all": tuple(range(len(WIDTHS)))}
 

@@ -7,9 +7,9 @@ from typing import Any
 
 import pandas as pd
 
+from softkin.core.recording import NONE
 from softkin.core.samples import TEST
 from softkin.evaluation.recorded_names import NEXT_SESSION, PLAIN, PUBLISHED
-from softkin.models.estimators.memory_features import NONE
 from softkin.reporting.claims.measured import Measured
 from softkin.reporting.claims.spec import Case, ClaimSpec
 

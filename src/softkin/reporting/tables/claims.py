@@ -7,8 +7,8 @@ from typing import Any
 
 import pandas as pd
 
+from softkin.core.recording import NONE
 from softkin.evaluation.recorded_names import PUBLISHED
-from softkin.models.estimators.memory_features import NONE
 from softkin.reporting.claims import CLAIMS
 from softkin.reporting.claims.measured import measured
 from softkin.reporting.claims.table import COLUMNS, claims_table
