@@ -18,7 +18,8 @@ from tests.workflow.conftest import House, copy_house
 from tests.workflow.test_kills import processes
 
 pytestmark = pytest.mark.timeout(600)
-TARGET = "results/finger/gb/tuned/fit.json"
+#: One preset, whose study is long enough to be seen.
+TARGET = ("results/finger/gb/tuned/fit.json", "--config", "presets=[tuned]")
 
 
 @pytest.fixture
@@ -48,7 +49,7 @@ def on_a_terminal(house: House, *options: str) -> str:
 
 
 def test_a_terminal_shows_one_quiet_screen(new_house: House) -> None:
-    shown = on_a_terminal(new_house, TARGET)
+    shown = on_a_terminal(new_house, *TARGET)
     assert re.search("softkin test · 0 of 3 jobs · 0 s used · (roughly .+|under a minute) left", shown)
     assert "\033[J" in shown
     running = [line for line in shown.splitlines() if line.startswith("  fit model  finger  gb")]
@@ -67,7 +68,7 @@ def piped(tmp_path_factory: pytest.TempPathFactory, mirror: Path) -> tuple[House
     copy_house(folder / "house")
     (folder / "work").mkdir()
     house = House(folder / "house", folder / "work", mirror)
-    done = house.snakemake(TARGET)
+    done = house.snakemake(*TARGET)
     assert done.returncode == 0, done.stdout + done.stderr
     assert "\033" not in done.stdout
     return house, done.stderr
@@ -89,14 +90,14 @@ def test_where_the_terminal_is_closed_the_next_run_finishes_and_has_an_estimate(
     house = piped[0]
     predictions = house.work / "results" / "finger" / "gb" / "tuned" / "predictions.parquet"
     before = predictions.read_bytes()
-    close_a_terminal(house, TARGET, "--forcerun", "prepare")
+    close_a_terminal(house, *TARGET, "--forcerun", "prepare")
     assert not predictions.exists()
     # On a busy machine a signal takes its time.
     psutil.wait_procs(list(processes(house.work)), timeout=20)
     assert list(processes(house.work)) == []
     benchmark = house.work / "results" / "benchmarks" / "fit_model" / "finger" / "gb.tsv"
     benchmark.write_text("s\th:m:s\n600.0\t0:10:00\n")
-    again = house.snakemake(TARGET, "--forcerun", "prepare")
+    again = house.snakemake(*TARGET, "--forcerun", "prepare")
     assert again.returncode == 0, again.stdout + again.stderr
     assert "removed the lock of a killed run" in again.stderr
     assert predictions.read_bytes() == before
