@@ -1,15 +1,11 @@
 """Rule prepare: the file of a dataset -> tidy table in mm."""
 
 from softkin.core.job import job
+from softkin.data.audit.cleaning import cleaned
 from softkin.data.prepare import prepare
 from softkin.data.scored_rows import KeptRows
 
 dataset = snakemake.wildcards.dataset
-cleaned = None
-if snakemake.params.source.get("clean"):
-    # It imports the checks of the audit, and those scikit-learn.
-    from softkin.data.audit.cleaning import cleaned
-
 with job(snakemake.log[0], f"prepare {dataset}", snakemake.output, snakemake.input, snakemake.params):
     prepare(
         snakemake.input.raw,
@@ -19,5 +15,5 @@ with job(snakemake.log[0], f"prepare {dataset}", snakemake.output, snakemake.inp
         description=snakemake.output.description,
         order_table=next(iter(snakemake.input.order), None),
         kept=KeptRows(snakemake.params.max_rows, snakemake.params.max_scored_rows, snakemake.params.seed),
-        clean=cleaned,
+        clean=cleaned if snakemake.params.source.get("clean") else None,
     )
