@@ -107,6 +107,8 @@ def test_a_reader_is_decided_by_the_files_that_it_reads_with() -> None:
         "joined_tables",
         "partner_rows",
         "several_files",
+        "header_rows",
+        "nested_values",
         "stacked_tables",
         "hdf5_file",
         "ndi_export",
@@ -131,6 +133,7 @@ def test_a_reader_is_decided_by_the_files_that_it_reads_with() -> None:
     expected = {f"data/readers/{name}.py" for name in tables} | {"data/split.py", "core/samples.py"}
     expected |= {
         "data/own_files.py",
+        "data/times.py",
         "data/blocks.py",
         "data/missing_values.py",
         "core/recording.py",
