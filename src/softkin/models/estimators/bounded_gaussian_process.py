@@ -7,7 +7,6 @@ from typing import Any, Self
 
 import numpy as np
 from scipy.linalg import LinAlgError
-from scipy.optimize import minimize
 from sklearn.base import BaseEstimator, RegressorMixin
 from sklearn.gaussian_process import GaussianProcessRegressor
 from sklearn.gaussian_process.kernels import (
@@ -24,6 +23,7 @@ from sklearn.gaussian_process.kernels import (
 from softkin.core.rows import MANY_ROWS, PART, in_parts
 from softkin.core.samples import Array
 from softkin.models.estimators.kernel_likelihood import SHAPES, TREND_TERMS, Likelihood, Linear
+from softkin.models.estimators.quick_lbfgs import quick_lbfgs
 
 logger = logging.getLogger("softkin")
 
@@ -31,6 +31,8 @@ LENGTH_SCALE_BOUNDS = (1e-2, 1e3)
 NOISE_BOUNDS = (1e-10, 1.0)
 #: Scaled objective of a kernel that cannot be factorised: worse than any, and finite for the line search.
 SINGULAR = 1e6
+#: Largest slope of the scaled objective that counts as none: scipy's own.
+TOLERANCE = 1e-5
 #: Rows predicted at once, where as many as published robots have are fitted on.
 ROWS_AT_ONCE = 10_000
 JITTERS = (1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5)
@@ -139,8 +141,8 @@ class BoundedGaussianProcess(RegressorMixin, BaseEstimator):  # type: ignore[mis
                 value, gradient = objective(theta)
                 return (value / scale, gradient / scale) if np.isfinite(value) else (SINGULAR, gradient)
 
-            options = {"maxiter": self.max_iter}
-            found = minimize(scaled, kernel.theta, method="L-BFGS-B", jac=True, bounds=kernel.bounds, options=options)
+            low, high = np.transpose(kernel.bounds)
+            found = quick_lbfgs(scaled, kernel.theta, max_iter=self.max_iter, tolerance=TOLERANCE, bounds=(low, high))
             if np.isfinite(objective(found.x)[0]):
                 return kernel.clone_with_theta(found.x)
         raise _singular(kernel)

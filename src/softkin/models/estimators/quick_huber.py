@@ -77,7 +77,9 @@ class QuickHuber(HuberRegressor):  # type: ignore[misc]
         least = np.full(len(start), -np.inf)
         least[-1] = LEAST_SCALE
         loss = HuberLoss(X, y, epsilon=self.epsilon, alpha=self.alpha)
-        optimum = quick_lbfgs(loss, start, max_iter=self.max_iter, tolerance=self.tol, least=least)
+        optimum = quick_lbfgs(
+            loss, start, max_iter=self.max_iter, tolerance=self.tol, bounds=(least, np.full_like(least, np.inf))
+        )
         if optimum.status == 2:  # scikit-learn comes to the same end, and says why
             return self._of_scikit_learn(X, y, None)
         if optimum.status:

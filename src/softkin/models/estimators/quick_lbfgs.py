@@ -17,6 +17,8 @@ PAIRS, LEAST_DECREASE, MAX_CALLS, MAX_LINE_SEARCH = 10, 2.2204460492503131e-09, 
 #: What `setulb` asks for, and why it is told to stop, as its tasks number them.
 NEW_ITERATION, LOSS_AND_GRADIENT, CONVERGED, STOP = 1, 3, 4, 5
 TOO_MANY_CALLS, TOO_MANY_ITERATIONS = 502, 504
+#: How it is told which bounds a number has.
+LOWER, BOTH, UPPER = 1, 2, 3
 
 
 class Optimum(NamedTuple):
@@ -38,7 +40,7 @@ def quick_lbfgs(
     max_iter: int,
     tolerance: float,
     max_calls: int = MAX_CALLS,
-    least: Array | None = None,
+    bounds: tuple[Array, Array] | None = None,
 ) -> Optimum:
     """The minimum of a loss of one vector that `minimize(method="L-BFGS-B", jac=True)` finds, from the same calls.
 
@@ -51,16 +53,17 @@ def quick_lbfgs(
         max_iter: iterations at most; scipy's `maxiter`.
         tolerance: largest component of a gradient that counts as none; scipy's `gtol`.
         max_calls: calls of `loss` after which no iteration begins; scipy's `maxfun`.
-        least: lower bounds (n,), minus infinity where there is none; None: no bounds.
+        bounds: lower and upper ones, each (n,), infinite where there is none; None: no bounds.
 
     Source: scipy 1.17, `_minimize_lbfgsb`, whose Fortran-born core `setulb` this calls in the same way; Byrd, Lu,
     Nocedal and Zhu (1995).
     """
     x, n = np.array(start, dtype=np.float64), len(start)
-    low, high, is_bounded = np.zeros(n), np.zeros(n), np.zeros(n, dtype=np.int32)
-    if least is not None:
-        is_bounded[:] = np.isfinite(least)
-        low[is_bounded > 0] = least[is_bounded > 0]
+    low, high, kinds = np.zeros(n), np.zeros(n), np.zeros(n, dtype=np.int32)
+    if bounds is not None:
+        has_low, has_high = np.isfinite(bounds[0]), np.isfinite(bounds[1])
+        low[has_low], high[has_high] = bounds[0][has_low], bounds[1][has_high]
+        kinds[:] = np.select([has_low & has_high, has_low, has_high], [BOTH, LOWER, UPPER])
     value, gradient = 0.0, np.zeros(n)
     work = np.zeros(2 * PAIRS * n + 5 * n + 11 * PAIRS**2 + 8 * PAIRS)
     integers = [np.zeros(size, dtype=np.int32) for size in (3 * n, 2, 4, 44, 2)]
@@ -70,7 +73,7 @@ def quick_lbfgs(
     n_iterations = n_calls = 0
     while True:
         _lbfgsb.setulb(
-            PAIRS, x, low, high, is_bounded, value, gradient, factor, tolerance, work, places, task, logical, saved,
+            PAIRS, x, low, high, kinds, value, gradient, factor, tolerance, work, places, task, logical, saved,
             numbers, MAX_LINE_SEARCH, line_search
         )  # fmt: skip
         if task[0] == LOSS_AND_GRADIENT:
