@@ -17,7 +17,7 @@ from softkin.cli.guess_questions import ASKED, PIXELS, Question, question_of, re
 from softkin.cli.guess_split import of_recording, split_of, when_recorded
 from softkin.core.errors import DataError
 from softkin.core.samples import Array
-from softkin.core.units import LENGTHS, MM_PER_UNIT
+from softkin.core.units import LENGTHS, reason_against
 from softkin.data.orientation import KEY
 from softkin.data.readers.columns import family_of, marker_by_marker, unit_of
 from softkin.data.readers.memory_table import Table
@@ -31,7 +31,6 @@ LARGEST_METRES = 5.0
 NARROW_MM = 60.0
 #: A camera's unit; what a row of units or a name may say of positions.
 PX = "px"
-UNITS = frozenset({*MM_PER_UNIT, PX, "pixel", "pixels"})
 
 
 def guess_entry(
@@ -171,13 +170,19 @@ def _commands(
     )
 
 
+def _told(unit: str, path: Path) -> str:
+    """The unit that the file tells, checked: others than those of an entry are never taken for one of these."""
+    if reason := reason_against(unit):
+        raise DataError(f"positions in {unit}: {reason}", where=path, fix="bring them to one of these units")
+    return unit
+
+
 def _unit(names: Sequence[str], values: Array, path: Path, table: Table) -> tuple[str, str]:
     """The unit of the positions, and why."""
     said = {table.units[table.names.index(name)] for name in names} if table.units else set()
     told = {LENGTHS.get(unit.lower()) or unit for unit in said}
-    if len(told) == 1 and told <= UNITS:
-        unit = told.pop()
-        return unit, f"position_unit: the row of units says {unit}"
+    if len(told) == 1 and (unit := told.pop()) not in ("", "-", "1", "%"):
+        return _told(unit, path), f"position_unit: the row of units says {unit}"
     units = {unit_of(name) for name in names}
     if len(units - {None}) > 1:
         raise DataError(
@@ -185,9 +190,9 @@ def _unit(names: Sequence[str], values: Array, path: Path, table: Table) -> tupl
         )
     if None not in units:
         unit = str(units.pop())
-        return unit, f"position_unit: the columns' names say {unit}"
+        return _told(unit, path), f"position_unit: the columns' names say {unit}"
     extent = float(np.ptp(values, axis=0).max())
-    if any(words_of(name) & PIXELS for name in names):
+    if all(words_of(name) & PIXELS for name in names):
         return PX, "position_unit: the names say pixels, which stay pixels: no length is known of them; please check"
     unit = "m" if extent <= LARGEST_METRES else "mm"
     beside = next((name for name in table.names if words_of(name) & PIXELS), None)

@@ -158,3 +158,30 @@ def test_a_workspace_of_some_centimetres_may_be_in_either(tmp_path: Path) -> Non
     entry, reasons = guess_entry(tmp_path / "arm.csv", "Arm", "arm.csv")
     assert entry["position_unit"] == "mm"
     assert any("cm is possible, too" in reason for reason in reasons)
+
+
+@pytest.mark.parametrize(
+    ("names", "row", "unit"),
+    [
+        ("x_inch y_inch z_inch", "", "in"),
+        ("x y z", "inches inches inches", "in"),
+        ("x y z", "millimeters millimeters millimeters", "mm"),
+        ("x y z", "px px px", "px"),
+        ("x_um y_um z_um", "", None),
+        ("x y z", "µm µm µm", None),
+        ("x [feet]/y [feet]/z [feet]", "", None),
+    ],
+)
+def test_a_unit_that_is_told_is_never_replaced_by_a_guess(
+    tmp_path: Path, names: str, row: str, unit: str | None
+) -> None:
+    columns_named = names.split("/") if "/" in names else names.split()
+    lines = [",".join(["u1", *columns_named])] + ([",".join(["bar", *row.split()])] if row else [])
+    rng = np.random.default_rng(0)
+    lines += [",".join(map(str, line)) for line in rng.uniform(10, 90, (40, 4)).round(3).tolist()]
+    (tmp_path / "arm.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    if unit is None:
+        with pytest.raises(DataError, match="is none of m, cm, mm, in"):
+            guess_entry(tmp_path / "arm.csv", "Arm", "arm.csv")
+    else:
+        assert guess_entry(tmp_path / "arm.csv", "Arm", "arm.csv")[0]["position_unit"] == unit

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from softkin.core.errors import DataError
+from softkin.core.units import LENGTHS
 
 MAX_COMMANDS = 256
 #: Of a dataset's description: columns that are not used, and those of them that are an orientation.
@@ -17,8 +18,15 @@ MANY_COMMANDS = 64
 #: Words of a column's name that say an orientation.
 ORIENTATION_WORDS = "roll pitch yaw rpy quaternion quat rotation rot orientation euler rotvec rodrigues"
 _ORIENTATION = frozenset([*ORIENTATION_WORDS.split(), "qx", "qy", "qz", "qw"])
-_AXIS = re.compile(r"(?<![A-Za-z])[xyz](?![A-Za-z])|(?<![A-Z])[XYZ](?![A-Za-z])")
-_UNIT = re.compile(r"[\[(_ .](mm|cm|m|in|px|pixels?)[\])]?$")
+#: Letters that stand alone, capitals behind small letters (`tipX`), and what people write in one word: `px`, `xpos`.
+_AXIS = re.compile(
+    r"(?<![A-Za-z])[xyz](?![A-Za-z])|(?<![A-Z])[XYZ](?![A-Za-z])"
+    r"|(?:(?<=\b[pP])|(?<=\b[pP]os)|(?<=\b[tT]ip))[xyz](?![A-Za-z])|(?<![A-Za-z])[xyz](?=([pP]os|[tT]ip|mm|cm)\b)"
+)
+_UNIT = re.compile(
+    r"(?:[\[(_ ./]|(?<=^[xyzXYZ])(?=mm|cm))"
+    r"(mm|cm|m|in|px|pixels?|inch(?:es)?|(?:milli|centi|micro)?met(?:er|re)s?|microns?|[uµμnkd]m|f(?:oo|ee)?t)[\])]?$"
+)
 
 
 def axis_of(name: str) -> tuple[str, str] | None:
@@ -45,14 +53,15 @@ def family_of(name: str, by_unit: bool = True) -> tuple[str, str] | None:
     axis = axis_of(name)
     if axis is None:
         return None
-    capital = "X" * _AXIS.findall(_UNIT.sub("", name))[0].isupper()
+    found = _AXIS.search(_UNIT.sub("", name))
+    capital = "X" * (found is not None and found.group().isupper())
     return f"{axis[0]} {capital}{(unit_of(name) or '') * by_unit}", axis[1]
 
 
 def unit_of(name: str) -> str | None:
-    """The unit that a column's name ends with, as in `x_mm` or `x [mm]`; None where it has none."""
+    """The unit that a column's name ends with, as in `x_mm` or `x [inch]`, as entries write it; None without one."""
     unit = _UNIT.search(name)
-    return unit.group(1) if unit else None
+    return LENGTHS.get(unit.group(1)) or unit.group(1) if unit else None
 
 
 def orientations(names: Sequence[str]) -> list[str]:

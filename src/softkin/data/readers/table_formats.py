@@ -26,6 +26,7 @@ from softkin.data.readers import (
     vicon_export,
 )
 from softkin.data.readers.memory_table import Table
+from softkin.data.readers.stamped_table import stamped
 from softkin.data.readers.text_encoding import in_utf8
 
 
@@ -101,4 +102,5 @@ def open_table(path: str | Path, source: Mapping[str, Any]) -> Table:
         if name == "text" and begins.match(start):
             named = Path(source.get("file", path))
             raise DataError(f"no table, but {what}", fix=fix.format(name=named.name, stem=named.stem))
-    return kind.open_table(Path(path), source)
+    table = kind.open_table(Path(path), source)
+    return table if name == "files" else stamped(table)

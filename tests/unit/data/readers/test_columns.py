@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from softkin.core.errors import DataError
-from softkin.data.readers.columns import axis_of, check, choose, marker_by_marker, orientations, unit_of
+from softkin.data.readers.columns import axis_of, check, choose, family_of, marker_by_marker, orientations, unit_of
 
 NAMES = ["t", "u1", "u2", "m1_x", "m1_y", "m1_z", "m2_x", "m2_y", "m2_z", "note", "note"]
 
@@ -126,3 +126,27 @@ def test_orientations_are_told_by_their_names() -> None:
     """Not by a letter alone: q1 may be a joint."""
     oriented = ["tip_qw", "roll", "rpy_x", "quaternion_w", "Rotation Y"]
     assert orientations([*oriented, "tip_x", "q1", "u1", "p_rob"]) == oriented
+
+
+@pytest.mark.parametrize(
+    "names",
+    ["px py pz", "Px Py Pz", "xpos ypos zpos", "xTip yTip zTip", "posx posy posz", "xmm ymm zmm", "x/mm y/mm z/mm"],
+)
+def test_axes_in_one_word_with_what_they_are_of(names: str) -> None:
+    families = [family_of(name) for name in names.split()]
+    assert [family and family[1] for family in families] == ["x", "y", "z"]
+    assert len({family and family[0] for family in families}) == 1
+
+
+@pytest.mark.parametrize("name", ["vx", "ax", "Tx", "Fx", "qx", "mx", "max", "exp", "index", "cpx"])
+def test_other_letters_before_an_axis_say_something_else(name: str) -> None:
+    assert axis_of(name) is None
+
+
+def test_units_and_cases_part_families() -> None:
+    assert family_of("x") != family_of("x_m")
+    assert family_of("x", by_unit=False) == family_of("x_m", by_unit=False)
+    assert family_of("X_1") != family_of("x_1")
+    assert unit_of("xmm") == "mm"
+    assert unit_of("x/cm") == "cm"
+    assert unit_of("exmm") is None
