@@ -10,7 +10,8 @@ from softkin.data.readers.bad_rows import MISSING, NUMBER
 COMMENTS = ("#", "%", "//")
 #: What a cell of a row of units holds, perhaps in brackets.
 UNIT = re.compile(
-    r"[\[(]?(|-|1|%|[munkµ]?m|cm|in|inch|inches|ft|feet|microns?|px|pixels?|(milli|centi)?met(er|re)s?|[mk]?bar|[kM]?Pa|psi|[mk]?N|N?[ .*]?m?Nm"
+    r"[\[(]?(|-|1|%|[munkµ]?m|cm|in|inch|inches|ft|feet|microns?|px|pixels?|(milli|centi)?met(er|re)s?"
+    r"|[mk]?bar|[kM]?Pa|psi|[mk]?N|N?[ .*]?m?Nm"
     r"|[mk]?V|volts?|m?A|[munµ]?s|sec|seconds?|[mk]?Hz|deg|degrees?|°|rad|radians?|°?C|K|steps?|counts?|ticks?|rpm|k?g"
     r"|[muµ]?[lL]|(m|cm|mm|rad|deg)/s(\^?2|²)?|[muµ]?[lL]/(min|s)|bool|a\.?u\.?|none)[\])]?"
 )
