@@ -10,7 +10,7 @@ import argparse
 import logging
 import re
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -53,17 +53,18 @@ def show_and_write(
     options: Mapping[str, Any] | None = None,
     answer: int | None = None,
     join: str | None = None,
+    is_sure: Callable[[], bool] = lambda: True,
 ) -> None:
-    """Print the entry of the robot in `files`; with `write` append it to config/datasets.yaml.
+    """Print the entry of the robot in `files`; with `write` append it to config/datasets.yaml, if the person `is_sure`.
     `options` are keys of the entry that say how files are read, `join` how several are joined. Where the table raises
     a question, both entries are printed, unless `answer` (1 or 2) says which.
 
     Raises:
         DataError: there is no such file, or it cannot be used, or a question has to be answered first.
-        ConfigError: the name is none, or is taken, or the configuration cannot be appended to.
+        ConfigError: the name is none, or is taken, or nobody is sure, or the configuration cannot be appended to.
     """
     with robot_files(files, options or {}, join) as found:
-        name = _checked_name(name, files[0])
+        name = checked_name(name, files[0])
         seen = look(found.path, found.options)
         question = asked(found.path, found.options, seen)
         chosen = 0 if question is None or answer is None else answer - 1
@@ -79,6 +80,12 @@ def show_and_write(
             file=sys.stderr,
         )
         return
+    if not is_sure():
+        raise ConfigError(
+            "nothing is written, as you said no",
+            where=name,
+            fix=f"say how the file is to be read, see --help, or copy the entry to {DATASETS} and correct it there",
+        )
     datasets = read_key(CONFIG.read_text(encoding="utf-8"), CONFIG, "datasets", list)
     append_entry(DATASETS, name, text)
     print(
@@ -115,7 +122,19 @@ def _ask(question: Question, other: str, file: str, write: bool) -> None:
         )
 
 
-def _checked_name(name: str | None, file: str) -> str:
+def confirmed() -> bool:
+    """Whether the person at the terminal says that the entry is right.
+
+    Raises:
+        ConfigError: there is no terminal.
+    """
+    if not sys.stdin.isatty():
+        raise ConfigError("nobody can be asked here", where="standard input", fix="look at the entry, then say --yes")
+    print(f"Is this entry right? It is appended to {DATASETS} [y/N] ", end="", file=sys.stderr, flush=True)
+    return sys.stdin.readline().strip().lower() in ("y", "yes")
+
+
+def checked_name(name: str | None, file: str) -> str:
     """The name of the dataset: as it was given, or that of the file."""
     name = re.sub(r"[^a-z0-9]+", "_", Path(file).stem.lower()).strip("_") if name is None else name
     if not NAME.fullmatch(name):
@@ -138,6 +157,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--sheet", help="the sheet of a workbook")
     parser.add_argument("--join", choices=[*JOINS], help="how rows of several files belong together")
     parser.add_argument("--write", action="store_true", help=f"append the entry to {DATASETS}")
+    parser.add_argument("--ask", action="store_true", help="ask before it is appended")
     options = parser.parse_args(arguments)
     handler = logging.StreamHandler(sys.stderr)
     handler.setFormatter(logging.Formatter("%(levelname)s: %(message)s"))
@@ -150,7 +170,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         how: dict[str, Any] = {key: value for key, value in said.items() if value}
         if how.get("header", "").isdecimal():
             how["header"] = int(how["header"])
-        show_and_write(options.files, options.name, options.write, how, options.answer, options.join)
+        is_sure = confirmed if options.ask else lambda: True
+        show_and_write(options.files, options.name, options.write, how, options.answer, options.join, is_sure)
     except (SoftkinError, OSError) as error:
         print(f"new_robot: {error}", file=sys.stderr)
         return 2

@@ -19,16 +19,24 @@ ENVIRONMENT = {"OMP_NUM_THREADS": "1", "MLFLOW_DISABLE_TELEMETRY": "true", "PYTH
 
 Cores = Annotated[int, typer.Option(min=1, help="jobs at a time")]
 In = Annotated[Path, typer.Option("--in", help="folder of the run")]
+Files = Annotated[list[str], typer.Argument(help="the robot's file, or files: parts of a row, or trials")]
+Name = Annotated[str | None, typer.Option(help="of the dataset; the file's name where left out")]
+Join = Annotated[str | None, typer.Option(help="parts belong together by column, time or row")]
+Sheet = Annotated[str | None, typer.Option(help="the sheet of a workbook")]
+Header = Annotated[str | None, typer.Option(help="the line of the names of columns, from 1, or none")]
+Delimiter = Annotated[str | None, typer.Option(help="the character that splits columns")]
+Answer = Annotated[int | None, typer.Option(min=1, max=2, help="which of two entries, where a question is asked")]
 Notify = Annotated[str | None, typer.Option(help="command that gets the verdict on its standard input")]
 
 
 def run(
     cores: Cores = 2,
     robot: Annotated[str | None, typer.Option(help="one entry of config/datasets.yaml, and no other")] = None,
+    more: Annotated[Path | None, typer.Option(help="a file that overrides the configuration key by key")] = None,
 ) -> int:
     """The whole pipeline: what is not up to date is made, and nothing else."""
     only = ["--config", f"datasets=[{robot}]"] if robot is not None else []
-    return _snakemake("--cores", str(cores), *only)
+    return _snakemake("--cores", str(cores), *only, *(["--configfile", str(more)] if more is not None else []))
 
 
 def demo(cores: Cores = 2) -> int:
@@ -37,15 +45,39 @@ def demo(cores: Cores = 2) -> int:
     return _snakemake("--cores", str(cores), "--directory", "results/demo", "--configfile", "config/demo.yaml")
 
 
+def robot(
+    files: Files,
+    name: Name = None,
+    join: Join = None,
+    sheet: Sheet = None,
+    answer: Answer = None,
+    cores: Cores = 2,
+    few_trials: Annotated[bool, typer.Option("--few-trials", help="a first look, in minutes")] = False,
+    yes: Annotated[bool, typer.Option("--yes", help="take the guess as it is, and ask nobody")] = False,
+) -> int:
+    """One robot of your own and nothing else: guesses its entry, asks, runs it, and says where its model is.
+
+    `new-robot` has more options for files that it cannot read by itself; `run --robot` then goes on.
+    """
+    from softkin.cli.own_robot import guess_and_run
+
+    said = {"name": name, "join": join, "sheet": sheet, "answer": answer}
+    _project()
+    return guess_and_run(files, said, _snakemake, cores=cores, few_trials=few_trials, yes=yes)
+
+
 def new_robot(
-    files: Annotated[list[str], typer.Argument(help="the robot's file, or files: parts of a row, or trials")],
-    name: Annotated[str | None, typer.Option(help="of the dataset; the file's name where left out")] = None,
-    join: Annotated[str | None, typer.Option(help="parts belong together by column, time or row")] = None,
-    sheet: Annotated[str | None, typer.Option(help="the sheet of a workbook")] = None,
+    files: Files,
+    name: Name = None,
+    join: Join = None,
+    sheet: Sheet = None,
+    header: Header = None,
+    delimiter: Delimiter = None,
+    answer: Answer = None,
     write: Annotated[bool, typer.Option("--write", help="append the entry to config/datasets.yaml")] = False,
 ) -> int:
     """Guess the entry of a robot of your own from its files."""
-    said = {"name": name, "join": join, "sheet": sheet}
+    said = {"name": name, "join": join, "sheet": sheet, "header": header, "delimiter": delimiter, "answer": answer}
     named = [f"--{key}={value}" for key, value in said.items() if value is not None]
     return _main("new_robot", *named, *(["--write"] if write else []), "--", *files)
 
@@ -93,6 +125,7 @@ def schedule(
 COMMANDS: dict[Callable[..., int], tuple[str, str]] = {
     run: ("run", "softkin run --cores 4"),
     demo: ("demo", "softkin demo"),
+    robot: ("robot", "softkin robot arm.csv --few-trials"),
     new_robot: ("new-robot", "softkin new-robot commands.csv positions.csv --name arm --write"),
     ui: ("ui", "softkin ui --in results/demo --port 5001"),
     campaign: ("campaign", "softkin campaign --cores 2"),
@@ -115,6 +148,11 @@ def _main(module: str, *arguments: str) -> int:
 
 def _snakemake(*arguments: str) -> int:
     """The exit code of the workflow of this folder."""
+    _project()
+    return subprocess.call([sys.executable, "-m", "snakemake", *arguments])
+
+
+def _project() -> None:
+    """Raise a ConfigError where this is not the folder of a project."""
     if not Path("Snakefile").is_file():
         raise ConfigError("there is no Snakefile", where=Path.cwd(), fix="run it in the folder of softkin")
-    return subprocess.call([sys.executable, "-m", "snakemake", *arguments])

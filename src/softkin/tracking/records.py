@@ -186,7 +186,7 @@ def log_artifacts(client: MlflowClient, run: Run, record: Record) -> None:
 
     They go where the run says: each call of the client would ask the store for the run again.
     """
-    repository = get_artifact_repository(run.info.artifact_uri, tracking_uri=client.tracking_uri)
+    repository: Any = get_artifact_repository(run.info.artifact_uri, tracking_uri=client.tracking_uri)
     for file in record.files:
         repository.log_artifact(file)
     for file in record.figures:

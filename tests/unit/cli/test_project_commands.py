@@ -23,6 +23,7 @@ def app() -> typer.Typer:
     ("module", "asked", "passed"),
     [
         (new_robot, ["new-robot", "a b.csv", "--name", "arm", "--write"], ["--name=arm", "--write", "--", "a b.csv"]),
+        (new_robot, ["new-robot", "a", "--header", "3", "--answer", "2"], ["--header=3", "--answer=2", "--", "a"]),
         (verify, ["verify", "--in", "results/demo"], ["--in=results/demo"]),
         (ui, ["ui", "--port", "5001"], ["--directory=.", "--port=5001"]),
         (prune, ["prune", "--keep", "5"], ["--keep=5"]),

@@ -33,7 +33,7 @@ def test_the_two_lines_that_convert_python_objects_do(
     if is_dictionary:
         np.savez("a.npz", data=np.array(parts, dtype=object))
     else:
-        np.savez("a.npz", **{name: part.astype(object) for name, part in parts.items()})
+        np.savez("a.npz", u=parts["u"].astype(object), x=parts["x"].astype(object))
     with pytest.raises(DataError) as raised:
         open_table(Path("a.npz"), {"file": "data/a.npz"})
     lines = [line.strip() for line in str(raised.value.fix).splitlines()[1:]]
