@@ -6,7 +6,8 @@ A region is a box along one command or two. It is searched on the rows of `valid
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import logging
+from collections.abc import Iterator, Sequence
 from itertools import combinations
 from typing import Any, NamedTuple
 
@@ -19,8 +20,12 @@ from softkin.uncertainty.calibrated_model import CalibratedModel
 
 #: A region has at least so many rows of `validation`, and at most this share of them.
 FEWEST_ROWS, LARGEST_SHARE = 20, 0.5
+#: Of more commands, pairs are tried of those along which the worst region of one command is worst.
+MOST_COMMANDS = 24
 #: Bounds that are tried along a command, where regions are along one, and along two.
 MOST_BOUNDS = {1: 120, 2: 20}
+
+logger = logging.getLogger("softkin")
 
 
 class Region(NamedTuple):
@@ -93,14 +98,14 @@ def worst_region(commands: Array, missed: Array, n_columns: int) -> Region | Non
     if len(commands) < 2 * FEWEST_ROWS or commands.shape[1] < n_columns or np.ptp(missed) == 0:
         return None
     excess = (missed - missed.mean()) / missed.std()
+    tried: Sequence[int] = range(commands.shape[1])
+    if n_columns > 1 and len(tried) > MOST_COMMANDS:
+        logger.info("regions along two commands are searched for %d of %d commands", MOST_COMMANDS, len(tried))
+        alone = [_along(commands, (column,), excess)[0] for column in tried]
+        tried = sorted(np.argsort(alone, kind="stable")[-MOST_COMMANDS:].tolist())
     best, region = 0.0, None
-    for columns in combinations(range(commands.shape[1]), n_columns):
-        cuts = [_cuts(commands[:, column], MOST_BOUNDS[n_columns]) for column in columns]
-        cells = [np.searchsorted(of, commands[:, c], side="right") - 1 for of, c in zip(cuts, columns, strict=True)]
-        # Along one command the other side of the grid has one cell.
-        cells, sizes = ([np.zeros(len(commands), dtype=int)] * (2 - n_columns) + cells, [1] * (2 - n_columns))
-        sizes = sizes + [len(of) for of in cuts]
-        score, sides = _worst_rectangle(cells, sizes, excess)
+    for columns in combinations(tried, n_columns):
+        score, sides, cells = _along(commands, columns, excess)
         if score > best:
             own = np.all(
                 [(low <= cell) & (cell < high) for cell, (low, high) in zip(cells, sides, strict=True)], axis=0
@@ -108,6 +113,19 @@ def worst_region(commands: Array, missed: Array, n_columns: int) -> Region | Non
             rows = commands[np.ix_(own, columns)]
             best, region = score, Region(columns, rows.min(axis=0), rows.max(axis=0))
     return region
+
+
+def _along(
+    commands: Array, columns: tuple[int, ...], excess: Array
+) -> tuple[float, list[tuple[int, int]], list[NDArray[np.intp]]]:
+    """The score and the sides of the worst rectangle along one command or two, and the cells (n_rows,) of each."""
+    n_columns = len(columns)
+    cuts = [_cuts(commands[:, column], MOST_BOUNDS[n_columns]) for column in columns]
+    cells = [np.searchsorted(of, commands[:, c], side="right") - 1 for of, c in zip(cuts, columns, strict=True)]
+    # Along one command the other side of the grid has one cell.
+    cells, sizes = ([np.zeros(len(commands), dtype=int)] * (2 - n_columns) + cells, [1] * (2 - n_columns))
+    score, sides = _worst_rectangle(cells, sizes + [len(of) for of in cuts], excess)
+    return score, sides, cells
 
 
 def _cuts(values: Array, most: int) -> Array:

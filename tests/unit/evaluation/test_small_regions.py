@@ -9,6 +9,7 @@ import pandas as pd
 import pytest
 
 from softkin.core.samples import Array
+from softkin.evaluation import small_regions
 from softkin.evaluation.small_regions import FEWEST_ROWS, Region, deployed_rows, share, worst_region
 from tests.unit.uncertainty.small_robot import small_robot
 from tests.unit.uncertainty.test_failures import SLAB, failing, in_slab, robot
@@ -29,6 +30,31 @@ def test_a_thin_slab_is_found_along_its_command() -> None:
     assert region.low[0] == pytest.approx(0.3, abs=0.03)
     assert region.high[0] == pytest.approx(0.36, abs=0.03)
     assert str(region).startswith("u2 0.")
+
+
+def test_of_many_commands_pairs_are_tried_of_those_that_are_worst_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """All pairs of 256 commands would take minutes."""
+    rng = np.random.default_rng(0)
+    commands, missed = rng.uniform(-1, 1, (1000, 12)), (rng.uniform(size=1000) < 0.1).astype(float)
+    missed[(commands[:, 4] > 0.5) & (commands[:, 9] < -0.5)] = 1.0
+    tried: list[tuple[int, ...]] = []
+    along = small_regions._along
+
+    def counted(rows: Array, columns: tuple[int, ...], excess: Array) -> object:
+        tried.append(columns)
+        return along(rows, columns, excess)
+
+    monkeypatch.setattr(small_regions, "_along", counted)
+    whole = worst_region(commands, missed, 2)
+    assert len(tried) == 66
+    tried.clear()
+    monkeypatch.setattr(small_regions, "MOST_COMMANDS", 4)
+    few = worst_region(commands, missed, 2)
+    assert whole is not None
+    assert few is not None
+    assert few.columns == whole.columns == (4, 9)
+    np.testing.assert_array_equal([few.low, few.high], [whole.low, whole.high])
+    assert len(tried) == 12 + 6
 
 
 def test_a_corner_is_found_along_two_commands() -> None:
