@@ -60,5 +60,5 @@ def test_the_params_of_every_job_can_be_asked_for() -> None:
     rules = HOUSE / "workflow" / "rules"
     logs = [path for file in rules.glob("*.smk") for path in re.findall(r'"(results/logs/.+\.log)"', file.read_text())]
     assert len(logs) > 10
-    named = re.findall(r'^    "(\w+)": config', (rules / "other_params.smk").read_text(), re.MULTILINE)
-    assert set(re.findall(r"{(\w+)}", "".join(logs))) == set(named)
+    named = re.findall(r'^    "(\w+)": "\w+",$', (rules / "other_params.smk").read_text(), re.MULTILINE)
+    assert set(re.findall(r"{(\w+)}", "".join(logs))) == {"dataset", *named}

@@ -2,6 +2,7 @@
 # all of its jobs, so a rule whose outputs presets or interval methods decide is made once for each group. No rule of its
 # own.
 from softkin.core.narrowing import groups, name_of, narrowed
+from softkin.data.entries import OWN_FOLDERS
 
 GROUPS = groups(config)
 # The rules that are made for each group.
@@ -16,10 +17,7 @@ for group in GROUPS:
 
 # What the dataset of a path may be. Each file is held against these, and there are hundreds of a dataset: a list of a
 # thousand names would be read each time.
-RESERVED = (
-    "tables|logs|benchmarks|studies|studies_before_refit|manifest|schedules|peers"
-)
-DATASET = f"(?!(?:{RESERVED})/)[a-z][a-z0-9_]*"
+DATASET = f"(?!(?:{'|'.join(OWN_FOLDERS)})/)[a-z][a-z0-9_]*"
 
 
 def datasets_of(group):

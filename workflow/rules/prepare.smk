@@ -16,7 +16,6 @@ rule prepare:
         source=source,
         max_rows=config.get("max_rows_per_subset"),
         max_scored_rows=config.get("max_scored_rows"),
-        seed=config["seed"],
         code=prepare_code,
     script:
         "../scripts/prepare.py"

@@ -14,6 +14,6 @@ with job(snakemake.log[0], f"prepare {dataset}", snakemake.output, snakemake.inp
         table=snakemake.output.table,
         description=snakemake.output.description,
         order_table=next(iter(snakemake.input.order), None),
-        kept=KeptRows(snakemake.params.max_rows, snakemake.params.max_scored_rows, snakemake.params.seed),
+        kept=KeptRows(snakemake.params.max_rows, snakemake.params.max_scored_rows),
         clean=cleaned if snakemake.params.source.get("clean") else None,
     )

@@ -16,8 +16,9 @@ from softkin.data import own_files
 from softkin.data.reachability import SUFFIX
 from softkin.data.readers.columns import MAX_COMMANDS
 
-#: Folders of results/ that are no dataset's.
-RESERVED = ("tables", "logs", "benchmarks", "studies", "studies_before_refit", "manifest", "schedules", "peers", "demo")
+#: Folders of results/ that are no dataset's; and beside them that of `make demo`, which has results of its own.
+OWN_FOLDERS = ("tables", "logs", "benchmarks", "studies", "studies_before_refit", "manifest", "schedules", "peers")
+RESERVED = (*OWN_FOLDERS, "demo")
 #: Experiments of MLflow that are no dataset's, each of which has one of its name.
 EXPERIMENTS = ("campaigns", "champions", "history")
 #: The format of a stand-in's file, which has no entry.

@@ -1,4 +1,4 @@
-"""Rows that models are calibrated and scored on: all that a recording has, or of very many some, drawn with the seed.
+"""Rows that models are calibrated and scored on: all that a recording has, or of very many some.
 
 Every model predicts these rows, and every interval method bounds them; thousands more tell no more of coverage.
 """
@@ -19,17 +19,18 @@ logger = logging.getLogger("softkin")
 
 #: Key of a dataset's description and card: subset -> its rows before some of them were drawn.
 DRAWN_FROM = "drawn_from"
+#: What the rows are drawn with: the same whatever the seed of a run, so that runs of two seeds are scored on the same.
+SEED = 0
 
 
 @dataclass(frozen=True, slots=True)
 class KeptRows:
     """How many rows of each subset are kept at most, None for all: of any the `first` ones, to try the workflow out; of
-    each but `train` so many to be `scored`, drawn with the `seed`.
+    each but `train` so many to be `scored`, drawn at random.
     """
 
     first: int | None = None
     scored: int | None = None
-    seed: int = 0
 
 
 ALL_ROWS = KeptRows()
@@ -42,7 +43,7 @@ def scored_rows(samples: Mapping[str, Samples], kept: KeptRows) -> tuple[dict[st
     left, drawn_from = dict(samples), {}
     for subset, rows in samples.items():
         if subset != TRAIN and kept.scored is not None and len(rows) > kept.scored:
-            left[subset] = rows.take(drawn_rows(len(rows), rows.block, kept.scored, kept.seed))
+            left[subset] = rows.take(drawn_rows(len(rows), rows.block, kept.scored, SEED))
             drawn_from[subset] = len(rows)
             logger.warning("%d of %d rows of %s are kept: max_scored_rows", kept.scored, len(rows), subset)
     return left, drawn_from

@@ -109,6 +109,7 @@ def test_a_reader_is_decided_by_the_files_that_it_reads_with() -> None:
         "several_files",
         "header_rows",
         "nested_values",
+        "stamped_table",
         "stacked_tables",
         "hdf5_file",
         "ndi_export",
@@ -134,6 +135,7 @@ def test_a_reader_is_decided_by_the_files_that_it_reads_with() -> None:
     expected |= {
         "data/own_files.py",
         "data/times.py",
+        "core/units.py",
         "data/blocks.py",
         "data/missing_values.py",
         "core/recording.py",

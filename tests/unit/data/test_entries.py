@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 import yaml
 
-from softkin.data.entries import EXPERIMENTS, RESERVED, problems_of_entries
+from softkin.data.entries import EXPERIMENTS, OWN_FOLDERS, RESERVED, problems_of_entries
 from softkin.tracking import champion, nights
 from tests.conftest import HOUSE
 
@@ -40,8 +40,9 @@ def test_a_pattern_and_a_base_are_accepted() -> None:
 
 def test_names_of_softkins_own_folders_are_those_that_the_rules_exclude() -> None:
     """A dataset's files are in results/<name>; `make demo` has a folder of its own there."""
-    rules = (HOUSE / "workflow" / "rules" / "paths.smk").read_text()
-    assert f"(?!(?:{'|'.join(name for name in RESERVED if name != 'demo')})/)" in rules
+    rules = (HOUSE / "workflow" / "rules" / "groups.smk").read_text()
+    assert "(?!(?:{'|'.join(OWN_FOLDERS)})/)" in rules
+    assert set(RESERVED) - set(OWN_FOLDERS) == {"demo"}
     assert "results/demo" in (HOUSE / "Makefile").read_text()
 
 
