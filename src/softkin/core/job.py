@@ -74,7 +74,8 @@ def job(
     logger.setLevel(logging.DEBUG)
     logger.propagate = False
     logging.captureWarnings(True)
-    logging.getLogger("py.warnings").addHandler(to_file)
+    # Warnings and what libraries log. Where the root logger has a handler, none of them gives it one that prints.
+    logging.getLogger().addHandler(to_file)
     try:
         with _terminal_into(file.fileno()) if screen else nullcontext():
             check_ends(inputs)
@@ -100,7 +101,7 @@ def job(
         logger.handlers = []
         logger.propagate = True
         logging.captureWarnings(False)
-        logging.getLogger("py.warnings").removeHandler(to_file)
+        logging.getLogger().removeHandler(to_file)
         file.close()
 
 

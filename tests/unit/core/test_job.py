@@ -12,7 +12,7 @@ import pytest
 
 from softkin.core.credentials import KEPT
 from softkin.core.errors import SoftkinError
-from softkin.core.job import ON_A_SCREEN, job, stopwatch
+from softkin.core.job import ON_A_SCREEN, Discreet, job, stopwatch
 
 CLOCK = r"[0-2]\d:[0-5]\d:[0-5]\d"
 
@@ -80,7 +80,7 @@ def test_the_log_is_as_before_when_a_job_ends(tmp_path: Path) -> None:
         assert len(logging.getLogger("softkin").handlers) == 2
     assert logging.getLogger("softkin").handlers == []
     assert logging.getLogger("softkin").propagate
-    assert logging.getLogger("py.warnings").handlers == []
+    assert not any(isinstance(handler.formatter, Discreet) for handler in logging.getLogger().handlers)
 
 
 def test_under_a_screen_everything_goes_to_the_log(
@@ -115,3 +115,20 @@ def test_credentials_stand_in_no_log_and_no_traceback(
     assert shown.count("the store is http://***@example.org/") == 2
     assert shown.count("OSError: no connection to http://***@example.org/") == 2
     assert "hunter22" not in shown
+
+
+def test_what_libraries_log_is_not_printed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """MAPIE 1.6 sets up the root logger, if nobody has, to say that quantiles cross."""
+    root = logging.getLogger()
+    before = root.handlers
+    root.handlers = []
+    try:
+        with job(str(tmp_path / "j.log"), "fit x"):
+            logging.basicConfig(level=logging.INFO)
+            logging.info("The predictions are ill-sorted.")
+            logging.getLogger("library").warning("a warning of a library")
+        assert root.handlers == []
+    finally:
+        root.handlers = before
+    assert "ill-sorted" not in capsys.readouterr().err
+    assert "a warning of a library" in (tmp_path / "j.log").read_text()
