@@ -90,7 +90,7 @@ def points_in_extrapolation(run: FinishedRun) -> dict[str, Any]:
     ratios = run.tables.space_ratios()
     return {
         "deployed": _deployed(run, deployed),
-        "n_robots": len(deployed),
+        "n_robots": int(deployed["shell_rank_correlation"].notna().sum()),
         "n_ranked_by_shells": int((deployed["shell_rank_correlation"] > deployed["cv_rank_correlation"]).sum()),
         "n_studies": len(studies),
         "single_row_share": share_text(SHARE, 0),

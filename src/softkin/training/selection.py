@@ -16,6 +16,8 @@ from softkin.models.spec import PAPERS_RUN
 CV, SHELL = "cv_mae_mm", "shell_mae_mm"
 #: Scores (mm) below this count as this in the geometric mean, whose logarithm has no bound at 0.
 NEGLIGIBLE_MM = 1e-9
+#: Of fewer runs a rank correlation is chance: three have six orders.
+FEWEST_RANKED = 5
 
 
 def searched_runs(parameters: Mapping[tuple[str, str, str], str | Path]) -> pd.DataFrame:
@@ -93,7 +95,8 @@ def runs_with_errors(runs: pd.DataFrame, point: pd.DataFrame) -> pd.DataFrame:
     """The searched `runs` with their mean absolute errors on test and extrapolation, of the `point` metrics.
 
     Spearman's rank correlation of either score with the error on extrapolation is the same in each row of a dataset,
-    and NaN where it has one run. `on_front` says which runs no other of the dataset beats in both scores.
+    and NaN where it has fewer than `FEWEST_RANKED` runs. `on_front` says which runs no other of the dataset beats in
+    both scores.
     """
     key = ["dataset", "model", "preset"]
     errors = point.pivot_table(index=key, columns="subset", values="mae_mm")
@@ -104,7 +107,7 @@ def runs_with_errors(runs: pd.DataFrame, point: pd.DataFrame) -> pd.DataFrame:
         result[f"{subset}_mae_mm"] = errors[subset].reindex(pd.MultiIndex.from_frame(runs[key])).to_numpy()
     for name, score in (("cv", CV), ("shell", SHELL)):
         correlations = {
-            dataset: pool[score].rank().corr(pool[f"{EXTRAPOLATION}_mae_mm"].rank())
+            dataset: pool[score].rank().corr(pool[f"{EXTRAPOLATION}_mae_mm"].rank(), min_periods=FEWEST_RANKED)
             for dataset, pool in result.groupby("dataset")
         }
         result[f"{name}_rank_correlation"] = result["dataset"].map(correlations)
