@@ -27,6 +27,7 @@ import yaml
 
 from benchmarks.measured_run import HOUSE, measured_run, snakemake
 from softkin.cli.new_robot import main as new_robot
+from softkin.core.csv_tables import read_csv
 from softkin.core.files import read_json
 from softkin.core.runs import nearest_level
 from softkin.core.samples import EXTRAPOLATION, TEST
@@ -55,7 +56,7 @@ def row_of(name: str, results: Path) -> dict[str, Any]:
     choice, point, metrics = (
         of[of["dataset"] == name]
         for of in (
-            pd.read_csv(tables / f"{table}.csv") for table in ("interval_choice", "point_metrics", "interval_metrics")
+            read_csv(tables / f"{table}.csv") for table in ("interval_choice", "point_metrics", "interval_metrics")
         )
     )
     findings = read_json(results / name / "data_card.json")["findings"]
