@@ -74,8 +74,7 @@ def job(
     logger.setLevel(logging.DEBUG)
     logger.propagate = False
     logging.captureWarnings(True)
-    # Warnings and what libraries log. Where the root logger has a handler, none of them gives it one that prints.
-    logging.getLogger().addHandler(to_file)
+    logging.getLogger().addHandler(to_file)  # warnings too; without a handler MAPIE gives it one that prints
     try:
         with _terminal_into(file.fileno()) if screen else nullcontext():
             check_ends(inputs)
