@@ -21,11 +21,11 @@ from sklearn.model_selection import KFold
 from softkin.core.runs import Run
 from softkin.core.samples import TRAIN, VALIDATION, Array, informative_coordinates
 from softkin.data.table import read_subset
+from softkin.training.predict import predicted_rows
 from softkin.uncertainty.conformal import conformal_limits
 from softkin.uncertainty.joint_region import chosen_shape
 from softkin.uncertainty.regions import box, ellipsoids
 from softkin.uncertainty.regions.spec import Shape, of_shape
-from softkin.uncertainty.stored_outputs import predicted_rows
 
 LEVEL, N_FOLDS, N_DRAWS = 0.9, 5, 10
 

@@ -20,10 +20,10 @@ from softkin.core.runs import BOTH, SEARCHED, Run
 from softkin.core.samples import EXTRAPOLATION, SUBSETS, TEST, TRAIN, VALIDATION, Array, informative_coordinates
 from softkin.data.audit.gross_rows import gross_rows
 from softkin.data.table import read_subset
+from softkin.training.predict import predicted_rows
 from softkin.training.selection import run_of_choice
 from softkin.uncertainty.choose import deployed_choice
 from softkin.uncertainty.conformal import around, conformal_limits
-from softkin.uncertainty.stored_outputs import predicted_rows
 
 LEVEL, NEW = 0.9, (TEST, EXTRAPOLATION)
 

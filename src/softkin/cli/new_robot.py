@@ -65,7 +65,7 @@ def show_and_write(
     """
     with robot_files(files, options or {}, join) as found:
         name = checked_name(name, files[0])
-        seen = look(found.path, found.options)
+        seen = look(found.path, {"file": found.file, **found.options})
         question = asked(found.path, found.options, seen)
         chosen = 0 if question is None or answer is None else answer - 1
         text, entry = _text(name, (name, chosen), found, seen)

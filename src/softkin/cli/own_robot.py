@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from softkin.cli import new_robot
@@ -12,7 +12,8 @@ from softkin.core.errors import ConfigError
 
 def guess_and_run(
     files: Sequence[str],
-    said: Mapping[str, str | int | None],
+    name: str | None,
+    options: Sequence[str],
     workflow: Callable[..., int],
     *,
     cores: int,
@@ -24,7 +25,8 @@ def guess_and_run(
 
     Parameters:
         files: the robot's file, or files: parts of a row, or trials.
-        said: options of `new_robot` and their values; those that are None are left to the guess.
+        name: of the dataset; None: that of the file.
+        options: of `new_robot`, the name among them where there is one.
         workflow: runs Snakemake with these arguments; returns its exit code.
         cores: jobs at a time.
         few_trials: whether it is a first look, by config/few_trials.yaml.
@@ -36,17 +38,15 @@ def guess_and_run(
     Raises:
         ConfigError: the name is none, or is that of an entry.
     """
-    given = said.get("name")
-    name = new_robot.checked_name(None if given is None else str(given), files[0])
+    name = new_robot.checked_name(name, files[0])
     if name in read_key(new_robot.DATASETS.read_text(encoding="utf-8"), new_robot.DATASETS, "sources", dict):
         raise ConfigError(
             f"'{name}' is an entry already",
             where=new_robot.DATASETS,
             fix=f"run it by 'softkin run --robot {name}', or choose another name with --name",
         )
-    named = [f"--{key}={value}" for key, value in said.items() if value is not None]
     sure = [] if yes else ["--ask"]
-    if code := new_robot.main([*named, "--write", *sure, "--", *files]):
+    if code := new_robot.main([*options, "--write", *sure, "--", *files]):
         return code
     more = ["--configfile", str(new_robot.FEW_TRIALS)] if few_trials else []
     if code := workflow("--cores", str(cores), "--config", f"datasets=[{name}]", *more):

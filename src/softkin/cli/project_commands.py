@@ -61,9 +61,9 @@ def robot(
     """
     from softkin.cli.own_robot import guess_and_run
 
-    said = {"name": name, "join": join, "sheet": sheet, "answer": answer}
     _project()
-    return guess_and_run(files, said, _snakemake, cores=cores, few_trials=few_trials, yes=yes)
+    options = _options(name=name, join=join, sheet=sheet, answer=answer)
+    return guess_and_run(files, name, options, _snakemake, cores=cores, few_trials=few_trials, yes=yes)
 
 
 def new_robot(
@@ -77,9 +77,8 @@ def new_robot(
     write: Annotated[bool, typer.Option("--write", help="append the entry to config/datasets.yaml")] = False,
 ) -> int:
     """Guess the entry of a robot of your own from its files."""
-    said = {"name": name, "join": join, "sheet": sheet, "header": header, "delimiter": delimiter, "answer": answer}
-    named = [f"--{key}={value}" for key, value in said.items() if value is not None]
-    return _main("new_robot", *named, *(["--write"] if write else []), "--", *files)
+    options = _options(name=name, join=join, sheet=sheet, header=header, delimiter=delimiter, answer=answer)
+    return _main("new_robot", *options, *(["--write"] if write else []), "--", *files)
 
 
 def ui(folder: In = Path(), port: Annotated[int, typer.Option(min=1, max=65535, help="on this machine")] = 5000) -> int:
@@ -139,6 +138,11 @@ def add_to(app: typer.Typer, explained: Callable[..., Any]) -> None:
     """Add the commands, each with its example."""
     for command, (name, example) in COMMANDS.items():
         app.command(name, epilog=f"Example: {example}")(explained(command))
+
+
+def _options(**said: str | int | None) -> list[str]:
+    """What was said, as options of a command; what was not is left out."""
+    return [f"--{key}={value}" for key, value in said.items() if value is not None]
 
 
 def _main(module: str, *arguments: str) -> int:

@@ -30,9 +30,10 @@ from softkin.core.shells import command_norm
 from softkin.data.audit.gross_rows import gross_rows
 from softkin.data.table import read_subset
 from softkin.evaluation.beside_oracle import ratios
+from softkin.training.predict import predicted_rows
 from softkin.uncertainty.intervals.spec import NO_GUARANTEE, IntervalMethod
 from softkin.uncertainty.labelled.spec import NO_LABELS, Labelled, LabelledMethod
-from softkin.uncertainty.stored_outputs import INTERVAL_SUBSETS, predicted_rows
+from softkin.uncertainty.stored_outputs import INTERVAL_SUBSETS
 
 COLUMNS = [
     *("dataset", "model", "preset", "interval_method", "confidence_level", "subset", "n_rows", "coverage"),

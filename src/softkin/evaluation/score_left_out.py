@@ -30,7 +30,7 @@ from softkin.core.samples import (
     measured_coordinates,
 )
 from softkin.data.table import read_subset
-from softkin.uncertainty.stored_outputs import predicted_rows
+from softkin.training.predict import predicted_rows
 
 COLUMNS = ["dataset", "subset", "left_out", "model", "preset", "interval_method", "metric", "value", "without"]
 #: A row that moves no number by more than this share of it is not listed.

@@ -15,11 +15,12 @@ from softkin.core.failed_parts import REGIONS, of_part
 from softkin.core.metrics.interval import clopper_pearson, coverage_band, coverage_p_value
 from softkin.core.runs import Run
 from softkin.core.samples import TEST, TRAIN, VALIDATION, Array, Samples, informative_coordinates
+from softkin.training.predict import predicted_rows
 from softkin.uncertainty.conformal import conformal_rank, error_scale, joint_scores, p_values
 from softkin.uncertainty.intervals.spec import NO_GUARANTEE
 from softkin.uncertainty.promise import Promise, own_rows
 from softkin.uncertainty.regions.spec import RegionMethod, divided
-from softkin.uncertainty.stored_outputs import INTERVAL_SUBSETS, StoredOutputs, predicted_rows
+from softkin.uncertainty.stored_outputs import INTERVAL_SUBSETS, StoredOutputs
 
 #: Displacements (mm) of the whole robot at which the rate of alarms is measured; 0 gives the false alarms.
 DISPLACEMENTS_MM = (0.0, 1.0, 2.0, 5.0, 10.0)

@@ -29,7 +29,7 @@ from softkin.models.estimators.memory_features import MEMORIES
 from softkin.models.estimators.weighted_mean import weighted_mean, weighted_sum
 from softkin.training.held_out import SCORES, PartSettings, Robot, mean_error, parts_of, read_held_out, truth_of
 from softkin.training.members import Weights, as_records
-from softkin.training.predict import predict, stored_positions
+from softkin.training.predict import predict, predicted_rows
 
 logger = logging.getLogger("softkin")
 
@@ -180,7 +180,7 @@ def mean_predictions(weights: Mapping[Path, float]) -> dict[str, Array]:
     """
     stored = [pd.read_parquet(path) for path in weights]
     return {
-        subset: weighted_sum([stored_positions(frame, subset) for frame in stored], list(weights.values()))
+        subset: weighted_sum([predicted_rows(frame, [subset]) for frame in stored], list(weights.values()))
         for subset in SUBSETS
     }
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import statistics
 import time
 from collections.abc import Mapping, Sequence
@@ -93,9 +94,13 @@ def _frame(subset: str, positions: Array) -> pd.DataFrame:
     return frame
 
 
-def stored_positions(stored: pd.DataFrame, subset: str) -> Array:
-    """Predicted positions (n_rows, n_coordinates) in mm of a subset, of predictions as `predict` writes them."""
-    return np.asarray(stored[stored["subset"] == subset].filter(regex=r"^m\d+_[xyz]$").to_numpy())
+def predicted_rows(stored: pd.DataFrame, subsets: Sequence[str], prefix: str = "") -> Array:
+    """Positions, or spreads with a `prefix`, (n_rows, n_coordinates) in mm, of predictions as `predict` writes them,
+    subset by subset.
+    """
+    wanted = re.compile(rf"{prefix}m\d+_[xyz]")
+    positions = stored[[name for name in stored.columns if wanted.fullmatch(name)]]
+    return np.concatenate([positions[stored["subset"] == subset].to_numpy() for subset in subsets])
 
 
 def _microseconds_per_row(estimator: Any, inputs: Array, repeats: int = 5) -> float:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -18,7 +17,7 @@ from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, VALIDATION, Array, 
 from softkin.core.shells import CommandNorm
 from softkin.data.table import read_subset
 from softkin.training.held_out import PartSettings
-from softkin.training.predict import SPREAD, STANDARD_DEVIATION, rows_with_spread
+from softkin.training.predict import SPREAD, STANDARD_DEVIATION, predicted_rows, rows_with_spread
 from softkin.training.refit import FOLD_OF_ROW, FOLDS, RESAMPLE_ROWS, RESAMPLES
 from softkin.training.refit_shells import CENTRE, SCALE, core_rows, shell_rows
 from softkin.training.selection import deployable_runs
@@ -201,10 +200,3 @@ def shells_of(archive: RunArchive, train: Samples) -> dict[Run, list[Shell]]:
 def norm_of(archive: RunArchive) -> Callable[[Array], Array]:
     """Command norm, (n_rows, n_commands) -> (n_rows,), stored in an archive of `refit_shells`."""
     return CommandNorm(archive.shared[CENTRE], archive.shared[SCALE]).of
-
-
-def predicted_rows(stored: pd.DataFrame, subsets: Sequence[str], prefix: str = "") -> Array:
-    """Predicted positions, or spreads with a `prefix`, (n_rows, n_coordinates), subset by subset."""
-    wanted = re.compile(rf"{prefix}m\d+_[xyz]")
-    positions = stored[[name for name in stored.columns if wanted.fullmatch(name)]]
-    return np.concatenate([positions[stored["subset"] == subset].to_numpy() for subset in subsets])

@@ -11,8 +11,6 @@ import pytest
 from softkin.cli.own_robot import guess_and_run
 from softkin.core.errors import ConfigError
 
-SAID: dict[str, str | int | None] = {"name": None, "join": None}
-
 
 @pytest.fixture
 def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
@@ -40,7 +38,7 @@ def asked(monkeypatch: pytest.MonkeyPatch, answer: str, *, terminal: bool = True
         return 0
 
     settings = {"cores": 3, "few_trials": False, "yes": False} | options
-    return guess_and_run(["My arm.csv"], SAID, workflow, **settings), calls
+    return guess_and_run(["My arm.csv"], None, [], workflow, **settings), calls
 
 
 def test_a_confirmed_guess_is_written_and_run(
@@ -79,7 +77,7 @@ def test_who_says_yes_is_not_asked(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.usefixtures("project")
 def test_a_workflow_that_fails_is_not_said_to_have_a_model(capsys: pytest.CaptureFixture[str]) -> None:
     settings = {"cores": 1, "few_trials": False, "yes": True}
-    assert guess_and_run(["My arm.csv"], SAID, lambda *_: 1, **settings) == 1  # type: ignore[arg-type]
+    assert guess_and_run(["My arm.csv"], None, [], lambda *_: 1, **settings) == 1  # type: ignore[arg-type]
     assert "softkin predict" not in capsys.readouterr().out
 
 

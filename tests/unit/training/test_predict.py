@@ -11,7 +11,7 @@ from softkin.core.samples import SUBSETS, TRAIN, Params, coordinate_columns
 from softkin.data.table import read_subset
 from softkin.models import MODELS
 from softkin.training.kinematic_model import FitSettings, fitted_model
-from softkin.training.predict import SPREAD, STANDARD_DEVIATION, predict, rows_with_spread, spread_of
+from softkin.training.predict import SPREAD, STANDARD_DEVIATION, predict, predicted_rows, rows_with_spread, spread_of
 
 SMALL: dict[str, Params] = {
     "lr": {},
@@ -89,3 +89,9 @@ def test_of_many_rows_of_train_some_have_a_spread_and_every_other_row_has(
     np.testing.assert_array_equal(kept, rows_with_spread(int(is_train.sum())))
     assert len(kept) == 7
     np.testing.assert_allclose(some[is_train][kept], every[is_train][kept], rtol=1e-9)
+
+
+def test_predicted_rows_are_in_the_order_of_the_subsets_asked_for() -> None:
+    stored = pd.DataFrame({"subset": ["test", "train", "test"], "m1_x": [1.0, 2.0, 3.0], "std_m1_x": [4.0, 5.0, 6.0]})
+    assert predicted_rows(stored, ["train", "test"]).tolist() == [[2.0], [1.0], [3.0]]
+    assert predicted_rows(stored, ["test"], "std_").tolist() == [[4.0], [6.0]]

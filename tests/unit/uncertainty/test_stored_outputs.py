@@ -26,7 +26,7 @@ from softkin.uncertainty.calibration_data import (
     ShellCalibration,
     SpreadCalibration,
 )
-from softkin.uncertainty.stored_outputs import StoredOutputs, norm_of, predicted_rows, shells_of, stored_outputs
+from softkin.uncertainty.stored_outputs import StoredOutputs, norm_of, shells_of, stored_outputs
 from tests.unit.uncertainty.conftest import (
     RUN,
     STORED_LEVELS,
@@ -217,12 +217,6 @@ def test_an_archive_gives_shells_by_run_and_the_command_norm() -> None:
 
 def shells_of_none() -> RunArchive:
     return RunArchive({"centre": np.zeros(1)}, {})
-
-
-def test_predicted_rows_are_in_the_order_of_the_subsets_asked_for() -> None:
-    stored = pd.DataFrame({"subset": ["test", "train", "test"], "m1_x": [1.0, 2.0, 3.0], "std_m1_x": [4.0, 5.0, 6.0]})
-    assert predicted_rows(stored, ["train", "test"]).tolist() == [[2.0], [1.0], [3.0]]
-    assert predicted_rows(stored, ["test"], "std_").tolist() == [[4.0], [6.0]]
 
 
 def test_where_blocks_are_exchangeable_each_counts_alike(table: Path, stored: Path, tmp_path: Path) -> None:
