@@ -11,11 +11,13 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
-import yaml
 
+from softkin.core.files import read_json
+from softkin.core.narrowing import narrowed_configuration
 from softkin.core.runs import SEARCHED, Run
 from softkin.core.samples import TRAIN, Array
 from softkin.data.split import has_standardised_norm
@@ -24,8 +26,6 @@ from softkin.models.ensembles import ENSEMBLES
 from softkin.models.ensembles.spec import EnsembleSpec
 from softkin.training.ensemble import Pool
 from softkin.training.held_out import PartSettings, Robot, parts_of, read_held_out, truth_of
-
-HOUSE = Path(__file__).parents[1]
 
 
 def ranked(predicted: Array, truth: Array, shares: Array, n_runs: int) -> Array:
@@ -47,29 +47,33 @@ def plain(n_runs: int) -> EnsembleSpec:
 WAYS = (plain(1), plain(3), plain(5), *ENSEMBLES.values())
 
 
-def pool_of(results: Path, dataset: str) -> Pool:
-    """What the searched runs of a dataset predict of held-out rows."""
-    config = yaml.safe_load((HOUSE / "config" / "config.yaml").read_text())
-    source = yaml.safe_load((HOUSE / "config" / "datasets.yaml").read_text())["sources"][dataset]
+def configuration_of(results: Path) -> dict[str, Any]:
+    """That of a finished run."""
+    return dict(read_json(results / "tables" / "summary.json")["configuration"])
+
+
+def held_out_of(results: Path, dataset: str) -> tuple[dict[str, list[Array]], dict[Run, dict[str, Array]]]:
+    """True positions of held-out rows by preset and part, and what each searched run of a dataset predicts of them."""
+    config = narrowed_configuration(configuration_of(results), dataset)
+    source = config["sources"][dataset]
     tuning = {name: config["tuning"][name] for name in ("n_folds", "core_shares", "max_rows", "max_markers")}
     settings = PartSettings(**tuning, scores=SEARCHED, seed=config["seed"])
     robot = Robot(source.get("base"), has_standardised_norm(source))
     rows, parts = parts_of(read_subset(results / dataset / "table.parquet", TRAIN), settings, robot)
-    runs = [Run(model, preset) for model in config["models"] for preset in SEARCHED]
+    runs = [Run(model, preset) for model in config["models"] for preset in SEARCHED if preset in config["presets"]]
     predicted = {run: read_held_out(results / dataset / run.model / run.preset / "held_out.npz") for run in runs}
-    return Pool({by: truth_of(rows, of_preset) for by, of_preset in parts.items()}, predicted)
+    return {by: truth_of(rows, of_preset) for by, of_preset in parts.items()}, predicted
 
 
 def main() -> None:
     """Print the table."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--results", type=Path, default=Path("results"))
-    config = yaml.safe_load((HOUSE / "config" / "config.yaml").read_text())
-    parser.add_argument("datasets", nargs="*", default=config["datasets"])
+    parser.add_argument("datasets", nargs="*")
     arguments = parser.parse_args()
     table = {}
-    for dataset in arguments.datasets:
-        pool = pool_of(arguments.results, dataset)
+    for dataset in arguments.datasets or configuration_of(arguments.results)["datasets"]:
+        pool = Pool(*held_out_of(arguments.results, dataset))
         for preset in SEARCHED:
             table[dataset, preset] = {way.title: pool.left_out_score(way, preset) for way in WAYS}
     frame = pd.DataFrame(table).T

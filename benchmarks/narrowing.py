@@ -18,14 +18,12 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from benchmarks.ensembles import configuration_of, held_out_of
 from softkin.core.files import read_json
 from softkin.core.runs import BOTH, SEARCHED, Run
-from softkin.core.samples import TRAIN
-from softkin.data.split import has_standardised_norm
-from softkin.data.table import read_subset
 from softkin.models.ensembles import ENSEMBLES
 from softkin.training.ensemble import Pool
-from softkin.training.held_out import SCORES, PartSettings, Robot, parts_of, read_held_out, truth_of
+from softkin.training.held_out import SCORES
 from softkin.training.selection import OBJECTIVES
 
 #: Models of a choice at most, beside all of them.
@@ -36,26 +34,11 @@ class Studies:
     """The studies of a `dataset` in a folder of `results`, and what its runs predict of held-out rows of `train`."""
 
     def __init__(self, results: Path, dataset: str) -> None:
-        config = read_json(results / "tables" / "summary.json")["configuration"]
-        entry, tuning = config["sources"][dataset], config["tuning"]
+        config = configuration_of(results)
         self.models: list[str] = config["models"]
+        self.truth, self.held_out = held_out_of(results, dataset)
         folder = results / dataset
-        rows, parts = parts_of(
-            read_subset(folder / "table.parquet", TRAIN),
-            PartSettings(
-                tuning["n_folds"],
-                tuning["core_shares"],
-                tuning["max_rows"],
-                tuning["max_markers"],
-                set(SEARCHED),
-                config["seed"],
-            ),
-            Robot(entry.get("base"), has_standardised_norm(entry)),
-        )
-        self.truth = {by: truth_of(rows, of_preset) for by, of_preset in parts.items()}
-        runs = [Run(model, preset) for model in self.models for preset in SEARCHED]
-        self.found = {run: read_json(folder / run.model / run.preset / "parameters.json") for run in runs}
-        self.held_out = {run: read_held_out(folder / run.model / run.preset / "held_out.npz") for run in runs}
+        self.found = {run: read_json(folder / run.model / run.preset / "parameters.json") for run in self.held_out}
         self.ensembles = {name: ENSEMBLES[name] for name in config["ensembles"]}
 
     def chosen(self, models: Sequence[str], presets: Sequence[str]) -> dict[str, Any]:
