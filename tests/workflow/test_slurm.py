@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import subprocess
+import tempfile
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -28,20 +29,21 @@ OPTIONS += ["--slurm-init-seconds-before-status-checks", "5", "--retries", "0"]
 
 
 @pytest.fixture
-def node(tmp_path: Path) -> Iterator[Path]:
-    """A running SLURM; the folder of its files."""
+def node() -> Iterator[Path]:
+    """A running SLURM; the folder of its files, which all may enter: munge takes no other, and pytest's are closed."""
     pytest.importorskip("snakemake_executor_plugin_slurm", reason="pip install softkin[slurm]")
     missing = [name for name in ("sinfo", "slurmctld", "slurmd", "munged") if not shutil.which(name)]
     if missing:
         pytest.skip(f"{', '.join(missing)} missing: apt-get install slurmctld slurmd slurm-client munge")
     if os.getuid() != 0:
         pytest.skip("only root can start a SLURM")
-    folder = tmp_path / "slurm"
-    subprocess.run(["bash", NODE, "up", folder], check=True, timeout=120)
-    try:
-        yield folder
-    finally:
-        subprocess.run(["bash", NODE, "down", folder], check=True, timeout=120)
+    with tempfile.TemporaryDirectory(prefix="slurm-") as name:
+        folder = Path(name)
+        subprocess.run(["bash", NODE, "up", folder], check=True, timeout=120)
+        try:
+            yield folder
+        finally:
+            subprocess.run(["bash", NODE, "down", folder], check=True, timeout=120)
 
 
 def wait_for(what: Callable[[], object], run: subprocess.Popen[str], seconds: float = 3000) -> None:
