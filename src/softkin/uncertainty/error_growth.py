@@ -11,7 +11,7 @@ from softkin.uncertainty.calibration_data import ShellCalibration
 
 #: Smallest error, mm.
 TINY_MM = 1e-12
-#: Penalty that keeps coefficients at 0 that no row identifies (the core exponent, where there is one core).
+#: Penalty that keeps coefficients near 0 that no row identifies, such as slopes where all distances are alike.
 RIDGE = 1e-8
 #: An error counts at most as so many times what the fit predicts: gross errors (a stuck pose) are capped.
 CAP = 3.0
@@ -105,13 +105,14 @@ def growth_coefficients(
     The fit must not fall within the distances of the rows: where it does, it is repeated without a bend, and where it
     still does, without a slope. Maximum likelihood of exponentially distributed errors, gross ones capped: a gamma
     regression with a logarithmic link. Least squares of their logarithms would give most weight to the smallest errors,
-    those that happen to cross zero.
+    those that happen to cross zero. Where there is one core no row identifies its exponent, which is 0.
     """
     terms = np.column_stack([log_cores, log_distances, log_distances**2])
+    first = int(np.ptp(log_cores) == 0)
     coefficients = np.zeros(3)
-    for n_terms in (3, 2, 1):
+    for n_terms in (3, 2, 1)[: 3 - first]:
         coefficients[:] = 0.0
-        coefficients[:n_terms] = capped_gamma_regression(terms[:, :n_terms], errors, weights)
+        coefficients[first:n_terms] = capped_gamma_regression(terms[:, first:n_terms], errors, weights)
         if coefficients[1] >= 0 and coefficients[1] + 2 * coefficients[2] * log_distances.max() >= 0:
             break
     return float(coefficients[0]), float(coefficients[1]), float(coefficients[2])

@@ -95,3 +95,15 @@ def test_gross_errors_do_not_bend_the_growth() -> None:
     assert grown(clean) == pytest.approx(6 * 0.4, abs=0.3)
     assert grown(gross) == pytest.approx(grown(clean), abs=0.3)
     assert gross[0] == pytest.approx(clean[0], abs=0.7)
+
+
+def test_of_one_core_no_exponent_is_made_of_rounding() -> None:
+    """It would be a multiple of what the last digits of the errors are, and differ from processor to processor."""
+    rng = np.random.default_rng(8)
+    log_distances = rng.uniform(0.0, 0.7, 300)
+    errors = np.exp(1.5 * log_distances) * rng.exponential(size=300)
+    log_cores = np.full(300, np.log(0.7))
+    exponent, slope, bend = growth_coefficients(errors, log_cores, log_distances, np.ones(300))
+    assert exponent == 0.0
+    again = growth_coefficients(errors * (1 + 2e-16), log_cores, log_distances, np.ones(300))
+    np.testing.assert_allclose(again, (exponent, slope, bend), rtol=0, atol=1e-11)
