@@ -37,7 +37,7 @@ from softkin.uncertainty.intervals import INTERVAL_METHODS
 
 HOUSE = Path(__file__).parents[1]
 GP = {"kernel": "rbf", "trend": "linear", "max_iter": 10, "learning_rows": 200}
-N_TRAIN, N_VALIDATION, N_TIMED, N_SENT, LEVEL = 600, 200, 30, 200, 0.9
+N_TRAIN, N_VALIDATION, N_TIMED, N_SENT, LEVEL = 600, 200, 200, 200, 0.9
 ITERATIONS, STEP, STALLED, DAMPINGS = 2_000, 1e-6, 1e-9, (1e-3, 1e-2, 1e-1)
 #: No seed of a configuration, a test or another benchmark.
 SEED = 2101
@@ -145,7 +145,7 @@ def line(scheme: str, robot: CalibratedModel, targets: Array, commands: Array, t
     lower, upper = robot.train.commands.min(axis=0), robot.train.commands.max(axis=0)
     beyond = ((commands < lower - 1e-9 * (upper - lower)) | (commands > upper + 1e-9 * (upper - lower))).any(axis=1)
     milliseconds = 1e3 * taken / len(targets)
-    return f"{scheme:<28} {milliseconds:>11.1f} {np.median(far):>19.3g} {far.max():>10.3g} {beyond.mean():>7.0%}"
+    return f"{scheme:<28} {milliseconds:>11.3g} {np.median(far):>19.3g} {far.max():>10.3g} {beyond.mean():>7.1%}"
 
 
 def sent(name: str, robot: CalibratedModel, targets: Array) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from copy import copy
 from functools import cached_property
 from typing import Any
@@ -20,11 +19,11 @@ from softkin.uncertainty.command_search import CommandSearch
 from softkin.uncertainty.conformal import conformal_limit, conformal_limits
 from softkin.uncertainty.control_loop import State
 from softkin.uncertainty.promise import asked_levels
+from softkin.uncertainty.search_starts import SearchStarts
 from softkin.uncertainty.targets import checked_step, checked_tolerance, marker_of, target_rows
 
-#: Searches begin at commands of `train` whose poses are nearest, no two of them nearer than this share of the range.
-N_STARTS, LEAST_APART = 4, 0.2
-MAX_ROWS_SEARCHED = 2_000
+#: Searches begin at so many commands of `train` at most, and are made for so many targets at a time.
+MAX_ROWS_SEARCHED, TARGETS_AT_ONCE = 2_000, 500
 #: Answers that are held against all errors of the calibration set at a time.
 ROWS_AT_ONCE = 100
 #: A search ends when the residual is at most this share of the marker's median error, or of how far it moves.
@@ -116,9 +115,9 @@ class _Wish:
         if in_a_row:
             commands, inputs = self._along(state, step)
         else:
-            search = self._search(state, step)
-            starts = [self._begin_at(target, search, state.last, in_a_row=False) for target in self.targets]
-            commands = search.nearest_each(self.targets, starts, state.last, first_wins=state.last is None)
+            places = range(0, len(self.targets), TARGETS_AT_ONCE)
+            parts = [self.targets[start : start + TARGETS_AT_ONCE] for start in places]
+            commands = np.vstack([self._searched(part, state, step, in_a_row=False) for part in parts])
             inputs = state.next_inputs(commands)
         answers = self._promised(commands, inputs)
         if not isinstance(self.asked, (pd.DataFrame, pd.Series)):
@@ -130,9 +129,7 @@ class _Wish:
         """Commands sent one after the other, and what the model is given at each."""
         commands, inputs = [], []
         for target in self.targets:
-            search = self._search(state, step)
-            starts = self._begin_at(target, search, state.last, in_a_row=True)
-            commands.append(search.nearest(target, starts, state.last, first_wins=True))
+            commands.append(self._searched(target[None], state, step, in_a_row=True)[0])
             inputs.append(state.inputs(commands[-1])[0])
         return np.array(commands), np.array(inputs)
 
@@ -164,31 +161,22 @@ class _Wish:
 
         return CommandSearch(position, self.robot.is_outside, lower, upper, self.extent_mm, self.close_mm)
 
-    def _begin_at(self, target: Array, search: CommandSearch, last: Array | None, *, in_a_row: bool) -> Iterator[Array]:
-        """Commands (n_commands,) of `train` whose predicted poses are nearest, apart from each other, and the last; all
-        clipped to the bounds, and each worked out when it is needed.
-        """
-        here = [] if last is None else [np.clip(last, search.lower, search.upper)]
-        if in_a_row:
-            yield from here
+    def _searched(self, targets: Array, state: State, step: Array | None, *, in_a_row: bool) -> Array:
+        """Commands (n_targets, n_commands), each sent after the last one."""
+        search, last = self._search(state, step), state.last
         commands, poses = self.robot._starts
         width = np.where(self.upper > self.lower, self.upper - self.lower, 1.0)
-        commands = np.clip(commands, search.lower, search.upper)
-        distances = np.square(poses[:, self.own] - target).sum(axis=1)
-        for place in range(N_STARTS):
-            nearest = int(np.argmin(distances))
-            if np.isinf(distances[nearest]):
-                return
-            yield commands[nearest]
-            if place == 0 and not in_a_row:
-                yield from here
-            distances[np.linalg.norm((commands - commands[nearest]) / width, axis=1) < LEAST_APART] = np.inf
+        between = None if last is None else np.clip(last, search.lower, search.upper)
+        starts = SearchStarts(
+            targets, poses[:, self.own], np.clip(commands, search.lower, search.upper), width, between,
+            in_a_row=in_a_row,
+        )  # fmt: skip
+        return search.nearest_each(targets, starts, last, first_wins=in_a_row or last is None)
 
     def _promised(self, commands: Array, inputs: Array) -> CommandAnswers:
         """The answers: what the errors of the marker on the calibration set promise around each predicted position."""
         whole = np.asarray(self.robot._prepared.predicted_of_few(inputs))
         intervals = np.asarray(self.robot.intervals(inputs, self.level, whole))[:, self.own]
-        regular = self.robot._prepared.bounds(inputs, (self.level,), whole)[0][:, self.own]
         positions = whole[:, self.own]
         off = positions - self.targets
         residual = np.linalg.norm(off, axis=1)
@@ -197,15 +185,16 @@ class _Wish:
         by_block = promise is not None and promise.n_blocks > 1
         (level,) = asked_levels(promise, [self.level])
         n_places = (promise.n_blocks + 1) * promise.n_rows if by_block else len(self.errors) + 1
-        regularly = self._stretch(regular, positions, level)
-        stretches = self._stretch(intervals, positions, level)
+        regularly = stretches = self._stretch(intervals, positions, level)
+        if self.robot.failures is not None:  # where a pose may fail its intervals hold failed poses, too
+            regular = self.robot._prepared.bounds(inputs, (self.level,), whole)[0][:, self.own]
+            regularly = self._stretch(regular, positions, level)
         for start in range(0, len(off), ROWS_AT_ONCE):
             rows = slice(start, start + ROWS_AT_ONCE)
-            distances = np.linalg.norm(off[rows, None] + self.errors * stretches[rows, None], axis=2)
-            distances[~np.isfinite(stretches[rows]).all(axis=1)] = np.inf
+            distances = _distances(off[rows], stretches[rows], self.errors)
             within[rows] = conformal_limits(distances.T, [level])[0]
-            # Where a pose may fail its intervals hold failed poses, which bring no target nearer.
-            by_error = np.linalg.norm(self.errors * regularly[rows, None], axis=2)
+            # Failed poses bring no target nearer.
+            by_error = _distances(np.zeros_like(off[rows]), regularly[rows], self.errors)
             radius[rows] = conformal_limits(by_error.T, [level])[0]
             near[rows] = 0.0 if self.tolerance is None else (distances <= self.tolerance).sum(axis=1)
         radius = np.where(np.isfinite(radius), radius, 0.0)
@@ -223,3 +212,13 @@ class _Wish:
         moving = informative_coordinates(self.robot.train.positions)[self.own]
         told = moving & np.isfinite(known) & (known > 0)
         return np.where(told, np.maximum(1.0, half / np.where(told, known, 1.0)), 1.0)
+
+
+def _distances(off: Array, stretches: Array, errors: Array) -> Array:
+    """Lengths (n_rows, n_errors) of `off` (n_rows, 3) and each of `errors` (n_errors, 3) together, times `stretches`
+    (n_rows, 3); infinite where one of these is.
+    """
+    told = np.isfinite(stretches)
+    finite = np.where(told, stretches, 0.0)
+    squares = np.square(off).sum(axis=1)[:, None] + 2 * (off * finite) @ errors.T + finite**2 @ (errors**2).T
+    return np.where(told.all(axis=1, keepdims=True), np.sqrt(np.maximum(squares, 0.0)), np.inf)

@@ -33,6 +33,8 @@ from softkin.uncertainty.promise import asked_levels
 Levels = tuple[float, ...]
 #: Tables of so many choices of levels are kept.
 KEPT_LEVELS = 64
+#: What is said of so many commands at most is kept.
+KEPT_ROWS = 1_000
 
 
 class Prepared:
@@ -48,6 +50,7 @@ class Prepared:
         self.beyond = Beyond(robot.known, robot.shells, robot.norm)
         self.table = lru_cache(KEPT_LEVELS)(self._table_at)
         self._last: tuple[bytes, tuple[Array, Array | None]] | None = None
+        self._last_place: tuple[bytes, tuple[NDArray[np.bool_], Array]] | None = None
 
     def predicted(self, inputs: Array) -> Array:
         """Positions (n_rows, n_coordinates) in mm at inputs that are checked."""
@@ -77,7 +80,7 @@ class Prepared:
         """Which commands (n_rows, n_commands) lie in extrapolation, (n_rows,); as
         `in_domain_and_extrapolation.is_in_extrapolation`.
         """
-        return self._place(commands)[0]
+        return self._place(commands)[0].copy()
 
     def make_ready(self, levels: Levels) -> None:
         """Work everything out now, for these levels, so that the first command takes no longer than the others."""
@@ -165,9 +168,16 @@ class Prepared:
         return spread_of(self.robot.spec, self.robot.estimator, self.robot.train, inputs) if found is None else found
 
     def _place(self, commands: Array) -> tuple[NDArray[np.bool_], Array]:
-        """As `Beyond.place`; norms from plain numbers, where they are known."""
+        """As `Beyond.place`; norms from plain numbers, where they are known. That of the last few commands is kept:
+        bounds need it, and who asks for bounds mostly asks which commands lie outside.
+        """
+        key = commands.tobytes() if len(commands) <= KEPT_ROWS else b""
+        if key and self._last_place is not None and self._last_place[0] == key:
+            return self._last_place[1]
         is_plain = "centre" in self.plain.surroundings
-        return self.beyond.place(commands, self.plain.norms(commands) if is_plain else None)
+        place = self.beyond.place(commands, self.plain.norms(commands) if is_plain else None)
+        self._last_place = (key, place) if key else None
+        return place
 
     def _placed(self, inputs: Array) -> tuple[Array, Array | None]:
         """Positions and spreads from plain numbers; those of the last inputs are kept, of many where they have a
