@@ -15,8 +15,7 @@ if TYPE_CHECKING:
 
 
 def build(params: Params, seed: int, threads: int) -> Any:
-    """MLPRegressor(**params) with `width` neurons in each of `layers` hidden layers, `FusedNetwork` where L-BFGS fits
-    it; `params` may set `random_state`.
+    """FusedNetwork(**params) with `width` neurons in each of `layers` hidden layers; `params` may set `random_state`.
 
     Several `networks` (default 1) differ in their seed alone, and their mean is predicted. All are fitted on the
     residuals of a `trend`.
@@ -28,13 +27,11 @@ def build(params: Params, seed: int, threads: int) -> Any:
 
 def _networks(params: Params, seed: int) -> Any:
     from sklearn.ensemble import BaggingRegressor
-    from sklearn.neural_network import MLPRegressor
 
     from softkin.models.estimators.fused_network import FusedNetwork
 
     rest = {key: value for key, value in params.items() if key not in ("layers", "width", "networks")}
-    kind = FusedNetwork if params.get("solver") == "lbfgs" else MLPRegressor
-    network = kind(**{"random_state": seed, **rest}, hidden_layer_sizes=(params["width"],) * params["layers"])
+    network = FusedNetwork(**{"random_state": seed, **rest}, hidden_layer_sizes=(params["width"],) * params["layers"])
     if params.get("networks", 1) == 1:
         return network
     return BaggingRegressor(network, params["networks"], bootstrap=False, random_state=seed)

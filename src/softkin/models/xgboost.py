@@ -14,11 +14,10 @@ if TYPE_CHECKING:
 
 def build(params: Params, seed: int, threads: int) -> Any:
     """XGBRegressor(**params), on the residuals of a `trend`."""
-    from xgboost import XGBRegressor
-
     from softkin.models.estimators.detrended import detrended
+    from softkin.models.estimators.quick_xgboost import QuickXGBoost
 
-    return detrended(lambda rest: XGBRegressor(**rest, random_state=seed, n_jobs=threads), params)
+    return detrended(lambda rest: QuickXGBoost(**rest, random_state=seed, n_jobs=threads), params)
 
 
 def search_space(trial: BaseTrial) -> Params:

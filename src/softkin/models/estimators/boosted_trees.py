@@ -6,9 +6,10 @@ from typing import Any
 
 import numpy as np
 from sklearn._loss.loss import PinballLoss
-from sklearn.ensemble import GradientBoostingRegressor, HistGradientBoostingRegressor
 
 from softkin.core.samples import Array, Params
+from softkin.models.estimators.quick_boosting import QuickBoosting
+from softkin.models.estimators.quick_histograms import QuickHistograms
 
 #: The parameter that names the way to split, and its value for histograms; both as XGBoost has them.
 TREE_METHOD, HISTOGRAM = "tree_method", "hist"
@@ -24,9 +25,9 @@ def boosted_trees(params: Params, seed: int, quantile: float | None = None) -> A
     if rest.pop(TREE_METHOD, None) == HISTOGRAM:
         loss: Params = {} if quantile is None else {"loss": QuantileLoss(quantile=quantile)}
         fixed = {"early_stopping": False, "max_leaf_nodes": None}
-        return HistGradientBoostingRegressor(**loss, **fixed, **rest, random_state=seed)
+        return QuickHistograms(**loss, **fixed, **rest, random_state=seed)
     loss = {} if quantile is None else {"loss": "quantile", "alpha": quantile}
-    return GradientBoostingRegressor(**loss, **rest, random_state=seed)
+    return QuickBoosting(**loss, **rest, random_state=seed)
 
 
 class QuantileLoss(PinballLoss):  # type: ignore[misc]

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Sequence
-from itertools import pairwise
+from itertools import islice, pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
 from sklearn.exceptions import ConvergenceWarning
 from sklearn.neural_network import MLPRegressor
+from sklearn.neural_network._stochastic_optimizers import AdamOptimizer
 
 from softkin.core.samples import Array
+from softkin.models.estimators.quick_adam import Batches, quick_adam
 from softkin.models.estimators.quick_lbfgs import quick_lbfgs
 
 
@@ -59,6 +61,9 @@ def _times_relu_slope(delta: Array, outputs: Array) -> None:
     np.sign(outputs, out=outputs)
     delta *= outputs
 
+
+#: scikit-learn's own size of a batch.
+BATCH = 200
 
 ACTIVATIONS = {
     "tanh": Activation(2.0, _tanh, _times_tanh_slope),
@@ -137,7 +142,9 @@ class FusedLoss:
 
 
 class FusedNetwork(MLPRegressor):  # type: ignore[misc]
-    """MLPRegressor whose solver lbfgs minimises the squared error by `FusedLoss`; all else is scikit-learn's."""
+    """MLPRegressor whose solver lbfgs minimises the squared error by `FusedLoss`, and adam by `quick_adam`, to the bit
+    where scikit-learn comes; all else is scikit-learn's.
+    """
 
     coefs_: list[Array]
     intercepts_: list[Array]
@@ -161,3 +168,25 @@ class FusedNetwork(MLPRegressor):  # type: ignore[misc]
         layers = loss.layers(optimum.x)
         self.coefs_ = [np.ascontiguousarray(layer[:, :-1].T) for layer in layers]
         self.intercepts_ = [layer[:, -1].copy() for layer in layers]
+
+    def _fit_stochastic(self, X: Array, y: Array, sample_weight: Array | None, *others: Any) -> None:
+        """Minimise the loss from the initial `coefs_` and `intercepts_`; scikit-learn's `fit` calls it by this name."""
+        plain = self.solver == "adam" and self.loss == "squared_error" and self.shuffle and self.batch_size == "auto"
+        double = X.dtype == y.dtype == np.float64
+        if sample_weight is not None or self.early_stopping or self.warm_start or others[-1] or not (plain and double):
+            super()._fit_stochastic(X, y, sample_weight, *others)
+            return
+        size = min(BATCH, len(X))
+        network = Batches(self.coefs_, self.intercepts_, activation=self.activation, alpha=self.alpha, n_rows=size)
+        optimizer = AdamOptimizer([network.packed], self.learning_rate_init, self.beta_1, self.beta_2, self.epsilon)
+        losses = quick_adam(network, X, y, batch_size=size, optimizer=optimizer, random=self._random_state)
+        for loss in islice(losses, self.max_iter):
+            self.loss_curve_.append(loss)
+            self._update_no_improvement_count(False, None, None, None)
+            if self._no_improvement_count > self.n_iter_no_change:
+                break
+        else:
+            warnings.warn(f"Adam stopped after {self.max_iter} passes", ConvergenceWarning, stacklevel=2)
+        self.n_iter_, self.loss_ = len(self.loss_curve_), self.loss_curve_[-1]
+        self.t_ = self.n_iter_ * len(X)
+        self.coefs_, self.intercepts_ = ([part.copy() for part in parts] for parts in (network.weights, network.biases))

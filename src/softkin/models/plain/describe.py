@@ -141,7 +141,10 @@ DESCRIBERS: dict[str, Describer] = {
     "BaggingRegressor": of_equals,
     "Detrended": of_detrended,
     "RandomForestRegressor": describe_trees.of_forest,
-    "GradientBoostingRegressor": describe_trees.of_gradient_boosting,
+    "GradientBoostingRegressor": describe_trees.of_gradient_boosting,  # the three of earlier versions
     "HistGradientBoostingRegressor": describe_trees.of_histogram_boosting,
     "XGBRegressor": describe_trees.of_xgboost,
+    "QuickBoosting": describe_trees.of_gradient_boosting,
+    "QuickHistograms": describe_trees.of_histogram_boosting,
+    "QuickXGBoost": describe_trees.of_xgboost,
 }

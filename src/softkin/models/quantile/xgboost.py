@@ -16,12 +16,11 @@ if TYPE_CHECKING:
 
 def build(params: Params, quantiles: Sequence[float], seed: int, threads: int) -> Any:
     """XGBRegressor(objective="reg:quantileerror", **params), on the residuals of a `trend`."""
-    from xgboost import XGBRegressor
-
     from softkin.models.estimators.detrended import detrended
+    from softkin.models.estimators.quick_xgboost import QuickXGBoost
 
     fixed = {"objective": "reg:quantileerror", "quantile_alpha": list(quantiles)}
-    return detrended(lambda rest: XGBRegressor(**fixed, **rest, random_state=seed, n_jobs=threads), params)
+    return detrended(lambda rest: QuickXGBoost(**fixed, **rest, random_state=seed, n_jobs=threads), params)
 
 
 def search_space(trial: BaseTrial) -> Params:
