@@ -8,7 +8,7 @@ from contextlib import closing
 from functools import cache
 from pathlib import Path
 
-from softkin.tracking import create_store
+from softkin.tracking.store import create_store
 
 
 @cache

@@ -5,9 +5,13 @@ from softkin.core.files import write_json
 from softkin.core.job import job
 from softkin.core.manifest import files_of_runs
 from softkin.core.runs import Run
-from softkin.tracking import Campaign, locked, log_champion, log_dataset, log_intervals, log_orientation
+from softkin.tracking.champion import log_champion
+from softkin.tracking.intervals import log_intervals
 from softkin.tracking.links import link_to
-from softkin.tracking.store import client_of
+from softkin.tracking.lock import locked
+from softkin.tracking.models import log_dataset
+from softkin.tracking.orientation import log_orientation
+from softkin.tracking.store import Campaign, client_of
 
 files, params = snakemake.input, snakemake.params
 tracking_uri = with_credentials(params.tracking_uri)

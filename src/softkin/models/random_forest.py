@@ -15,12 +15,11 @@ if TYPE_CHECKING:
 
 
 def build(params: Params, seed: int, threads: int) -> Any:
-    """RandomForestRegressor(**params), on the residuals of a `trend`."""
-    from sklearn.ensemble import RandomForestRegressor
-
+    """QuickForest(**params), on the residuals of a `trend`."""
     from softkin.models.estimators.detrended import detrended
+    from softkin.models.estimators.quick_forest import QuickForest
 
-    return detrended(lambda rest: RandomForestRegressor(**rest, random_state=seed, n_jobs=threads), params)
+    return detrended(lambda rest: QuickForest(**rest, random_state=seed, n_jobs=threads), params)
 
 
 def spread(regressor: Any, train: Samples, commands: Array) -> Array:

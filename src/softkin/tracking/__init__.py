@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from softkin.tracking.champion import log_champion
-from softkin.tracking.intervals import log_intervals
-from softkin.tracking.lock import locked
-from softkin.tracking.models import log_dataset
-from softkin.tracking.orientation import log_orientation
-from softkin.tracking.store import Campaign, create_store
+import os
 
-__all__ = ["Campaign", "create_store", "locked", "log_champion", "log_dataset", "log_intervals", "log_orientation"]
+# Told before any module imports MLflow.
+os.environ.setdefault("MLFLOW_DISABLE_TELEMETRY", "true")
+os.environ.setdefault("MLFLOW_ENABLE_ARTIFACTS_PROGRESS_BAR", "false")
+# A server that dies is given up after a quarter of a minute; by default MLflow tries it for four minutes and more.
+os.environ.setdefault("MLFLOW_HTTP_REQUEST_MAX_RETRIES", "3")
+os.environ.setdefault("MLFLOW_HTTP_REQUEST_TIMEOUT", "60")

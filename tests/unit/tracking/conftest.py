@@ -12,8 +12,7 @@ from mlflow import MlflowClient
 from softkin.core.files import write_json
 from softkin.core.runs import Run
 from softkin.core.samples import SUBSETS
-from softkin.tracking import Campaign
-from softkin.tracking.store import client_of, experiment_of
+from softkin.tracking.store import Campaign, client_of, experiment_of
 from tests.unit.stores import new_store
 
 DESCRIPTION = {

@@ -10,10 +10,9 @@ from pathlib import Path
 import pytest
 from mlflow import MlflowClient
 
-from softkin.tracking import Campaign
 from softkin.tracking.artifacts import artifacts_beside, folder_of
 from softkin.tracking.records import Record, put
-from softkin.tracking.store import client_of, experiment_of
+from softkin.tracking.store import Campaign, client_of, experiment_of
 
 RECORD = Record("nightly/finger/one", "one", {}, {"kind": "model"}, started=5_000, texts={"card.md": "A card."})
 

@@ -19,7 +19,9 @@ from mlflow.exceptions import MlflowException
 
 from softkin.core.distributions import installed
 from softkin.core.files import write_json
-from softkin.tracking import Campaign, log_champion, records
+from softkin.tracking import records
+from softkin.tracking.champion import log_champion
+from softkin.tracking.store import Campaign
 from tests.conftest import bending_arm
 from tests.unit.tracking.conftest import client_of_store
 from tests.unit.tracking.robots import DESCRIPTION, champion_files, interval_metrics, put_model, robot, with_shells

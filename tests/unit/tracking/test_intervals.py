@@ -7,8 +7,9 @@ from typing import Any
 
 import pandas as pd
 
-from softkin.tracking import Campaign, log_dataset, log_intervals
-from softkin.tracking.store import PARENT
+from softkin.tracking.intervals import log_intervals
+from softkin.tracking.models import log_dataset
+from softkin.tracking.store import PARENT, Campaign
 from tests.unit.tracking.conftest import client_of_store, snapshot
 
 

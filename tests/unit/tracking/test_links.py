@@ -2,9 +2,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from softkin.tracking import Campaign
 from softkin.tracking.links import link_to, links
-from softkin.tracking.store import client_of, experiment_of
+from softkin.tracking.store import Campaign, client_of, experiment_of
 
 
 def test_each_experiment_has_a_link_to_its_runs_and_its_view(campaign: Campaign) -> None:

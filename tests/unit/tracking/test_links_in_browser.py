@@ -20,9 +20,10 @@ import pandas as pd
 import pytest
 
 from softkin.core.files import write_json
-from softkin.tracking import Campaign, log_champion, log_dataset
+from softkin.tracking.champion import log_champion
+from softkin.tracking.models import log_dataset
 from softkin.tracking.nights import NightRecord, log_night
-from softkin.tracking.store import client_of
+from softkin.tracking.store import Campaign, client_of
 from tests.unit.tracking.robots import champion_files
 from tests.unit.tracking.test_nights import summary
 

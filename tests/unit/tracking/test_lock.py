@@ -17,9 +17,9 @@ import pytest
 from mlflow import MlflowClient
 
 from softkin.core.errors import StoreError
-from softkin.tracking import Campaign
 from softkin.tracking.lock import PREFIX, PROCESS, _break_if_old, _server_lock, has_ended, locked, this_process
 from softkin.tracking.records import CURRENT, KEY
+from softkin.tracking.store import Campaign
 from tests.workflow.mlflow_server import serving, sqlite
 
 HOLD = """
@@ -107,7 +107,9 @@ def test_a_lock_that_another_has_by_now_is_not_deleted(campaign: Campaign) -> No
 WRITE = """
 import json, sys
 from softkin.core.runs import Run
-from softkin.tracking import Campaign, locked, log_dataset
+from softkin.tracking.lock import locked
+from softkin.tracking.models import log_dataset
+from softkin.tracking.store import Campaign
 uri, files, runs = json.loads(sys.argv[1])
 print("ready", flush=True)
 sys.stdin.readline()

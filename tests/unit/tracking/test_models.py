@@ -16,11 +16,12 @@ from mlflow import MlflowClient
 
 from softkin.core.files import read_json
 from softkin.core.samples import SUBSETS
-from softkin.tracking import Campaign, log_dataset, log_intervals
 from softkin.tracking.artifacts import folder_of
+from softkin.tracking.intervals import log_intervals
+from softkin.tracking.models import log_dataset
 from softkin.tracking.records import KEY
 from softkin.tracking.saved_view import TAG
-from softkin.tracking.store import NOTE, PARENT
+from softkin.tracking.store import NOTE, PARENT, Campaign
 from tests.unit.tracking.conftest import client_of_store, snapshot
 
 

@@ -15,9 +15,9 @@ from pathlib import Path
 import pytest
 
 from softkin.core.errors import StoreError
-from softkin.tracking import Campaign, create_store, open_store, store
+from softkin.tracking import open_store, store
 from softkin.tracking.open_store import check_file
-from softkin.tracking.store import client_of
+from softkin.tracking.store import Campaign, client_of, create_store
 
 HOLD = """
 import sqlite3, sys, time

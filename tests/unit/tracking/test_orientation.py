@@ -6,8 +6,9 @@ from typing import Any
 import pandas as pd
 
 from softkin.core.files import write_json
-from softkin.tracking import Campaign, log_orientation
+from softkin.tracking.orientation import log_orientation
 from softkin.tracking.records import CURRENT, YES, find
+from softkin.tracking.store import Campaign
 from tests.unit.tracking.conftest import DESCRIPTION
 
 

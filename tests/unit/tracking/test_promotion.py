@@ -1,7 +1,7 @@
 from __future__ import annotations
 
-from softkin.tracking import Campaign
 from softkin.tracking.promotion import aliases_of, nominate, promote
+from softkin.tracking.store import Campaign
 from tests.unit.tracking.conftest import client_of_store
 
 NAME = "softkin-finger"

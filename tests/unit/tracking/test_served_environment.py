@@ -14,7 +14,8 @@ import mlflow.pyfunc
 import numpy as np
 import pytest
 
-from softkin.tracking import Campaign, log_champion
+from softkin.tracking.champion import log_champion
+from softkin.tracking.store import Campaign
 from tests.conftest import bending_arm
 from tests.exported_robots import ROBOTS
 from tests.unit.tracking.robots import champion_files, robot

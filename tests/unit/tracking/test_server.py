@@ -14,9 +14,9 @@ import pytest
 from mlflow.environment_variables import MLFLOW_HTTP_REQUEST_MAX_RETRIES, MLFLOW_HTTP_REQUEST_TIMEOUT
 
 from softkin.core.errors import StoreError
-from softkin.tracking import create_store, locked
+from softkin.tracking.lock import locked
 from softkin.tracking.server import check_answers
-from softkin.tracking.store import client_of
+from softkin.tracking.store import client_of, create_store
 
 
 @contextmanager

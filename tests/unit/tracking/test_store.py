@@ -15,8 +15,7 @@ from mlflow.entities import ViewType
 
 from softkin.core.errors import StoreError
 from softkin.core.files import write_json
-from softkin.tracking import Campaign, create_store
-from softkin.tracking.store import client_of, common_tags, experiment_of, read_description
+from softkin.tracking.store import Campaign, client_of, common_tags, create_store, experiment_of, read_description
 
 
 def test_a_lost_store_is_an_error_with_a_fix(tmp_path: Path) -> None:

@@ -140,10 +140,11 @@ DESCRIBERS: dict[str, Describer] = {
     "FusedNetwork": of_network,
     "BaggingRegressor": of_equals,
     "Detrended": of_detrended,
-    "RandomForestRegressor": describe_trees.of_forest,
-    "GradientBoostingRegressor": describe_trees.of_gradient_boosting,  # the three of earlier versions
+    "RandomForestRegressor": describe_trees.of_forest,  # this and the next three of earlier versions
+    "GradientBoostingRegressor": describe_trees.of_gradient_boosting,
     "HistGradientBoostingRegressor": describe_trees.of_histogram_boosting,
     "XGBRegressor": describe_trees.of_xgboost,
+    "QuickForest": describe_trees.of_forest,
     "QuickBoosting": describe_trees.of_gradient_boosting,
     "QuickHistograms": describe_trees.of_histogram_boosting,
     "QuickXGBoost": describe_trees.of_xgboost,
