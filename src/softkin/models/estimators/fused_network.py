@@ -107,19 +107,23 @@ class FusedLoss:
         self.penalties = np.full(ends[-1], alpha / row_weights.sum())
         for layer in self.layers(self.penalties):
             layer[:, -1] = 0.0
+        self.gradient, self.penalty = np.empty(ends[-1]), np.empty(ends[-1])
+        self.packed, self.slopes = self.penalties, self.layers(self.gradient)
+        self.weights = self.layers(self.packed)
 
     def layers(self, packed: Array) -> list[Array]:
         """Views of the parameters of each layer: weights, and the biases as last column (fan_out, fan_in + 1)."""
         return [packed[place].reshape(shape) for place, shape in zip(self.places, self.shapes, strict=True)]
 
     def __call__(self, packed: Array) -> tuple[float, Array]:
-        """Loss and gradient at `packed` (n_parameters,)."""
-        layers, gradient = self.layers(packed), np.empty_like(packed)
-        squared_error = self._forward(layers)
-        self._backward(layers, self.layers(gradient))
-        penalty = self.penalties * packed
-        gradient += penalty
-        return 0.5 * (squared_error + float(np.dot(penalty, packed))), gradient
+        """Loss and gradient at `packed` (n_parameters,); the next call overwrites the gradient."""
+        if packed is not self.packed:  # a search hands the same vector over in each of its calls
+            self.packed, self.weights = packed, self.layers(packed)
+        squared_error = self._forward(self.weights)
+        self._backward(self.weights, self.slopes)
+        np.multiply(self.penalties, packed, out=self.penalty)
+        self.gradient += self.penalty
+        return 0.5 * (squared_error + float(np.dot(self.penalty, packed))), self.gradient
 
     def _forward(self, layers: list[Array]) -> float:
         """The mean squared error; fills in the outputs of hidden neurons and the last delta."""

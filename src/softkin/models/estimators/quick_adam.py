@@ -64,12 +64,13 @@ class Batches:
         for weights in self.weights:
             flat = weights.ravel()
             squares += np.dot(flat, flat)
-        loss = 0.5 * np.mean(np.square(deltas[-1]), axis=0).mean()
+        squares_of_targets = np.add.reduce(np.square(deltas[-1]), axis=0) / n_rows
+        loss = 0.5 * (np.add.reduce(squares_of_targets) / len(squares_of_targets))
         loss += (0.5 * self.alpha) * squares / n_rows
         for layer in range(last, -1, -1):
             np.matmul(inputs[layer].T, deltas[layer], out=self.weight_slopes[layer])
             self.weight_slopes[layer] += self.alpha * self.weights[layer]
-            np.sum(deltas[layer], axis=0, out=self.bias_slopes[layer])
+            np.add.reduce(deltas[layer], axis=0, out=self.bias_slopes[layer])
             if layer:
                 np.matmul(deltas[layer], self.weights[layer].T, out=deltas[layer - 1])
                 self.times_slope(outputs[layer - 1], deltas[layer - 1])

@@ -48,7 +48,8 @@ def quick_lbfgs(
     hundred rows.
 
     Parameters:
-        loss: loss and gradient (n,) at a vector (n,), which it neither changes nor keeps.
+        loss: loss and gradient (n,) at a vector (n,), which it does not change; a call may overwrite the gradient
+            of the call before.
         start: the first vector, within the bounds.
         max_iter: iterations at most; scipy's `maxiter`.
         tolerance: largest component of a gradient that counts as none; scipy's `gtol`.
