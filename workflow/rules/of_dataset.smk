@@ -7,8 +7,12 @@ from functools import cache, partial
 from softkin.cli.partial_tables import PARTIAL
 
 # Set in a run that makes tables of what is there after a job has failed: what a dataset does without, by key of the
-# configuration, see src/softkin/cli/partial_tables.py.
-LEFT_OUT = json.loads(os.environ.get(PARTIAL, "{}"))
+# configuration, and the datasets that are complete, see src/softkin/cli/partial_tables.py.
+IS_PARTIAL = PARTIAL in os.environ
+LEFT_OUT, COMPLETE = (
+    json.loads(os.environ.get(PARTIAL, "{}")).get(key, none)
+    for key, none in (("left_out", {}), ("complete", []))
+)
 
 
 def configured(key, dataset):
@@ -142,13 +146,20 @@ def of_methods(group):
     """The files of a group's intervals."""
     return expand(
         "results/{{dataset}}/intervals/{method}.parquet",
-        method=group.interval_methods * (PARTIAL not in os.environ),
+        method=group.interval_methods * (not IS_PARTIAL),
     )
 
 
-CALIBRATED_MODEL = ["results/{dataset}/calibrated_model.joblib"] * (
-    PARTIAL not in os.environ
-)
+CALIBRATED_MODEL = ["results/{dataset}/calibrated_model.joblib"] * (not IS_PARTIAL)
+
+
+def calibrated_model(wildcards):
+    """The calibrated model of a dataset, where this run makes it or has nothing to do for it."""
+    if IS_PARTIAL and wildcards.dataset not in COMPLETE:
+        return []
+    return [f"results/{wildcards.dataset}/calibrated_model.joblib"]
+
+
 # All that the interval methods start from, of one dataset.
 STORED_OUTPUTS = {
     "models": model_manifests,

@@ -31,7 +31,11 @@ def plan_partial_tables():
         if method.calibrated_on.needs_quantiles
     ]
     partial = plan(
-        config, list(undone_jobs()), left_out=LEFT_OUT, on_quantiles=on_quantiles
+        config,
+        list(undone_jobs()),
+        left_out=LEFT_OUT,
+        on_quantiles=on_quantiles,
+        complete=COMPLETE if IS_PARTIAL else None,
     )
     if partial:
         atexit.register(make_partial_tables, partial, Path.cwd())

@@ -10,7 +10,7 @@ rule score:
         other_spaces=partial(refit_file, kind="spaces"),
         intervals=INTERVAL_MANIFEST,
         choice="results/{dataset}/interval_choice.csv",
-        calibrated_model=CALIBRATED_MODEL,
+        calibrated_model=calibrated_model,
     output:
         point="results/{dataset}/point_metrics.csv",
         markers="results/{dataset}/marker_errors.csv",

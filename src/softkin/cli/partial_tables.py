@@ -26,7 +26,8 @@ RULES = (*OF_A_DATASET, "build_tables", "draw_campaign_figures", "build_report")
 AFTER_THE_TABLES = ("track",)
 #: Jobs of one entry of a key of the configuration.
 OF_ONE = {"fit_model": "models", "fit_ensemble": "ensembles", "fit_quantiles": "quantile_models"}
-#: Set while such tables are made: what is left out, as JSON, by dataset and key of the configuration.
+#: Set while such tables are made, as JSON: what is `left_out`, by dataset and key of the configuration, and which datasets
+#: are `complete`.
 PARTIAL = "SOFTKIN_PARTIAL"
 
 #: Key of the configuration -> names that are left out.
@@ -49,11 +50,14 @@ class Undone:
 
 @dataclass(frozen=True, slots=True)
 class Partial:
-    """What tables are made of: these datasets, each without what `left_out` says; `missing` says it in a sentence."""
+    """What tables are made of: these datasets, each without what `left_out` says; `missing` says it in a sentence. Of
+    those that are `complete` nothing is to be done.
+    """
 
     datasets: list[str]
     left_out: dict[str, LeftOut] = field(default_factory=dict)
     missing: str = ""
+    complete: list[str] = field(default_factory=list)
 
 
 def plan(
@@ -62,6 +66,7 @@ def plan(
     *,
     left_out: Mapping[str, LeftOut],
     on_quantiles: Collection[str],
+    complete: Collection[str] | None = None,
 ) -> Partial | None:
     """What tables can be made of when a run has failed; None where that is nothing, or no less than the run tried.
 
@@ -70,8 +75,10 @@ def plan(
         undone: its jobs that have not been done.
         left_out: what the run left out already, by dataset.
         on_quantiles: the interval methods that need quantile regressors.
+        complete: the datasets that a run was told are complete, where it makes tables of what is there; None: it makes
+            those of everything.
     """
-    datasets, parts, words = [], {}, []
+    datasets, parts, words, done = [], {}, [], []
     for dataset in config["datasets"]:
         jobs = [job for job in undone if job.dataset == dataset and job.rule not in AFTER_THE_TABLES]
         new = _without(jobs)
@@ -84,6 +91,8 @@ def plan(
             words.append(_with_jobs(dataset, jobs))
             continue
         datasets.append(dataset)
+        if not jobs and (complete is None or dataset in complete):
+            done.append(dataset)
         if out:
             parts[dataset] = out
         for key, names in new.items():
@@ -91,7 +100,9 @@ def plan(
                 _with_jobs(f"the {PARTS[key]} {name} on {dataset}", [job for job in jobs if (key, name) in job.parts])
                 for name in names
             ]
-    return Partial(datasets, parts, f"Incomplete: without {', '.join(words)}.") if datasets and words else None
+    if not datasets or not words:
+        return None
+    return Partial(datasets, parts, f"Incomplete: without {', '.join(words)}.", done)
 
 
 def _without(jobs: Collection[Undone]) -> LeftOut | None:
@@ -142,5 +153,6 @@ def run_partial(partial: Partial, config: Mapping[str, Any], *, command: Sequenc
     write_json(file, {**config, "datasets": partial.datasets, "caution": caution})
     options = ["--cores", str(cores), "--nolock", "--configfile", str(file.resolve())]
     options += ["--allowed-rules", *(name_of(rule, group) for group in groups(config) for rule in RULES)]
-    environment = os.environ | {PARTIAL: json.dumps(partial.left_out)}
+    told = {"left_out": partial.left_out, "complete": partial.complete}
+    environment = os.environ | {PARTIAL: json.dumps(told)}
     return subprocess.run([*command, *options, "--", report], env=environment, check=False).returncode

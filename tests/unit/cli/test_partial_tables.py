@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import subprocess
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -31,8 +31,31 @@ WAITS = [MEAN, *(Undone(rule, "finger", rule, failed=False) for rule in ("refit"
 TABLES = Undone("build_tables", "", "build_tables", failed=False)
 
 
-def planned(*undone: Undone, left_out: Mapping[str, LeftOut] | None = None, **config: Any) -> Partial | None:
-    return plan(CONFIG | config, undone, left_out=left_out or {}, on_quantiles=["qr", "cqr"])
+def planned(
+    *undone: Undone,
+    left_out: Mapping[str, LeftOut] | None = None,
+    complete: Collection[str] | None = None,
+    **config: Any,
+) -> Partial | None:
+    return plan(CONFIG | config, undone, left_out=left_out or {}, on_quantiles=["qr", "cqr"], complete=complete)
+
+
+def test_a_dataset_is_complete_where_no_job_of_its_tables_is_undone() -> None:
+    """A run of tables of what is there knows a dataset for complete if the one before did: its own jobs may all be
+    done, and some of them of less.
+    """
+    tracked = Undone("track", "arm", "track", failed=False)
+    first = planned(GP, *WAITS, TABLES, tracked)
+    assert first is not None
+    others = [name for name in CONFIG["datasets"] if name != "finger"]
+    assert "arm" in others
+    assert first.complete == others
+    waits = planned(GP, *WAITS, Undone("score", "arm", "score", failed=False))
+    assert waits is not None
+    assert waits.complete == [name for name in others if name != "arm"]
+    second = planned(GP, *WAITS, complete=["arm"])
+    assert second is not None
+    assert second.complete == ["arm"]
 
 
 def test_a_dataset_does_without_a_model_that_failed_and_it_is_named() -> None:
@@ -133,13 +156,13 @@ def test_they_are_asked_for_with_a_caution_and_what_is_left_out(
 
     monkeypatch.setattr(subprocess, "run", run)
     config = CONFIG | {"caution": "Few trials.", "seed": 1, "sources": {"arm": {"presets": ["tuned"]}}}
-    partial = Partial(["arm"], {"arm": {"models": ["gp"]}}, "Incomplete.")
+    partial = Partial(["arm"], {"arm": {"models": ["gp"]}}, "Incomplete.", ["arm"])
     assert run_partial(partial, config, command=["snakemake"], cores=2, report="results/report.html") == 3
     ((command, environment, _),) = called
     assert command[:3] == ["snakemake", "--cores", "2"]
     assert command[-2:] == ["--", "results/report.html"]
     assert not {"track", "fit_model"} & set(command)
-    assert json.loads(environment[PARTIAL]) == {"arm": {"models": ["gp"]}}
+    assert json.loads(environment[PARTIAL]) == {"left_out": {"arm": {"models": ["gp"]}}, "complete": ["arm"]}
     assert PARTIAL not in os.environ
     given = read_json(command[command.index("--configfile") + 1])
     assert given == config | {"datasets": ["arm"], "caution": "Incomplete. Few trials."}

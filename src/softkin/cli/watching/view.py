@@ -21,6 +21,8 @@ from softkin.core.job import CLOCK, ON_A_SCREEN
 SNAKEMAKES_OWN = "DefaultStreamHandler"
 #: A line of a job's log that is a warning of softkin; Python's own name a file and a category, and stay in the log.
 WARNING = re.compile(r"^\S+ \S+ WARNING (?!.*:\d+: \w*Warning: )(.+)$", re.MULTILINE)
+#: Snakemake's events that say how far the run is.
+EVENTS = ("job_started", "group_info", "job_finished", "job_error")
 CLEAR_BELOW = "\033[J"
 
 
@@ -86,13 +88,16 @@ class View(logging.Handler):
         end it was reporting. The log file in .snakemake/log has all messages.
         """
         event, now = getattr(record, "event", None), self.clock()
-        if event not in ("job_started", "job_finished", "job_error") and record.levelno < logging.WARNING:
+        if event not in EVENTS and record.levelno < logging.WARNING:
             return
         with self._drawing:
             ended = None
             if event == "job_started":
                 for number in record.__dict__["jobs"]:
                     self.progress.begin(number, now)
+            elif event == "group_info":  # jobs that one job of a cluster does, and whose own start nobody tells
+                for job in record.__dict__["jobs"]:
+                    self.progress.begin(job.jobid, now)
             elif event == "job_finished":
                 ended = self.progress.end(record.__dict__["job_id"], now)
             elif event == "job_error":

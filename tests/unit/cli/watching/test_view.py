@@ -10,6 +10,7 @@ import re
 import select
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import TextIO
 
 import pytest
@@ -72,6 +73,26 @@ def test_a_log_file_gets_plain_lines(logger: logging.Logger) -> None:
     assert lines[4:] == ["Complete log: x"]
     assert "\033" not in stream.getvalue()
     assert ON_A_SCREEN not in os.environ
+
+
+def test_jobs_of_a_group_count_from_the_start_of_the_group(logger: logging.Logger) -> None:
+    """An executor tells the start of a group by a name of its own, and the end of each of its jobs."""
+    stream = io.StringIO()
+    own: logging.StreamHandler[TextIO] = logging.StreamHandler(stream)
+    logger.addHandler(own)
+    ticks = iter(range(100))
+    view = View(jobs(), own, "softkin test", clock=lambda: float(next(ticks)))
+    view.start(logger)
+    logger.info("Execute 1 jobs...", extra={"event": "job_started", "jobs": ["5d1c"]})
+    group = [SimpleNamespace(jobid=1), SimpleNamespace(jobid=2)]
+    logger.info("Group job", extra={"event": "group_info", "group_id": "5d1c", "jobs": group})
+    for number in (1, 2):
+        logger.info("Finished", extra={"event": "job_finished", "job_id": number})
+    view.finish(logger)
+    lines = stream.getvalue().splitlines()
+    assert re.fullmatch(rf"\[{CLOCK} · 1 of 2 jobs · .* left\] prepare finger: \d.\d s", lines[0])
+    assert re.fullmatch(rf"\[{CLOCK} · 2 of 2 jobs · .* left\] tune finger: \d.\d s", lines[1])
+    assert re.match(rf"{CLOCK} softkin test: 2 of 2 jobs in ", lines[2])
 
 
 def test_a_terminal_gets_one_screen_and_the_warnings_of_jobs(
