@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 import yaml
 
-from softkin.core.job import stopwatch
+from softkin.core.clocks import stopwatch
 from softkin.core.samples import EXTRAPOLATION, TRAIN
 from softkin.data.standins.simulating import simulate
 

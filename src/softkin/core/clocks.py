@@ -8,6 +8,7 @@ import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
@@ -62,3 +63,21 @@ def used_by_log(log: str | Path) -> Used | None:
     """What the last job that wrote to `log` used, by its last word; None where it has not ended."""
     words = _USED.findall(Path(log).read_text(encoding="utf-8"))
     return Used(*map(float, words[-1])) if words else None
+
+
+@dataclass(slots=True)
+class Stopwatch:
+    """Wall and CPU seconds of the block it times (CPU of this process, all threads)."""
+
+    seconds: float = 0.0
+    cpu_seconds: float = 0.0
+
+
+@contextmanager
+def stopwatch() -> Iterator[Stopwatch]:
+    """Measure the wall and CPU seconds of a block."""
+    watch, wall, cpu = Stopwatch(), time.perf_counter(), time.process_time()
+    try:
+        yield watch
+    finally:
+        watch.seconds, watch.cpu_seconds = time.perf_counter() - wall, time.process_time() - cpu

@@ -17,9 +17,9 @@ import joblib
 import numpy as np
 import pandas as pd
 
+from softkin.core.clocks import stopwatch
 from softkin.core.csv_tables import write_csv
 from softkin.core.files import read_json, replacing, write_json
-from softkin.core.job import stopwatch
 from softkin.core.job_records import load_model
 from softkin.core.runs import Run
 from softkin.core.samples import SUBSETS, TRAIN, Array

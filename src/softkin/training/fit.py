@@ -10,8 +10,8 @@ from pathlib import Path
 
 import joblib
 
+from softkin.core.clocks import stopwatch
 from softkin.core.files import replacing, write_json
-from softkin.core.job import stopwatch
 from softkin.core.samples import TRAIN
 from softkin.data.table import read_subset
 from softkin.models.spec import ModelSpec

@@ -14,9 +14,8 @@ from sklearn.pipeline import make_pipeline
 from sklearn.preprocessing import StandardScaler
 
 from softkin.core.bounds import bounds_frame
-from softkin.core.clocks import counted_as_fit
+from softkin.core.clocks import counted_as_fit, stopwatch
 from softkin.core.files import replacing, write_json
-from softkin.core.job import stopwatch
 from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, VALIDATION, Array, Params, Samples
 from softkin.core.threads import limited_threads
 from softkin.data.table import read_subset

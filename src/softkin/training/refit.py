@@ -10,11 +10,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from softkin.core.clocks import stopwatch
 from softkin.core.errors import ConfigError
 from softkin.core.failed_parts import MODELS, of_part
 from softkin.core.files import read_json
 from softkin.core.folds import folds_of
-from softkin.core.job import stopwatch
 from softkin.core.run_archive import CPU_SECONDS, RunArchive
 from softkin.core.runs import Run
 from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, Array

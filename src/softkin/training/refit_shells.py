@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from softkin.core.clocks import stopwatch
 from softkin.core.failed_parts import MODELS, of_part
 from softkin.core.files import read_json
-from softkin.core.job import stopwatch
 from softkin.core.run_archive import CPU_SECONDS, RunArchive
 from softkin.core.runs import Run
 from softkin.core.samples import EXTRAPOLATION, TEST, TRAIN, Array

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from softkin.core.clocks import counted_as_fit, used, used_by_log
+from softkin.core.clocks import counted_as_fit, stopwatch, used, used_by_log
 from softkin.core.job import job
 
 
@@ -54,3 +54,10 @@ def test_a_job_that_has_not_ended_used_nothing_yet(tmp_path: Path) -> None:
     log = tmp_path / "job.log"
     log.write_text("12:00 INFO trial 1 of 2\n")
     assert used_by_log(log) is None
+
+
+def test_the_stopwatch_tells_waiting_from_working() -> None:
+    with stopwatch() as watch:
+        time.sleep(0.05)
+    assert watch.seconds >= 0.05
+    assert watch.cpu_seconds < 0.05

@@ -4,15 +4,15 @@ import json
 import logging
 import os
 import re
+import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
 
 from softkin.core.credentials import KEPT
 from softkin.core.errors import SoftkinError
-from softkin.core.job import ON_A_SCREEN, Discreet, job, stopwatch
+from softkin.core.job import ON_A_SCREEN, Discreet, job
 
 CLOCK = r"[0-2]\d:[0-5]\d:[0-5]\d"
 
@@ -65,13 +65,6 @@ def test_debug_goes_to_the_log_only(tmp_path: Path, capsys: pytest.CaptureFixtur
         logging.getLogger("softkin").info("half done")
     assert re.fullmatch(rf"{CLOCK} tune: half done\n", capsys.readouterr().err)
     assert "trial 3" in (tmp_path / "job.log").read_text()
-
-
-def test_the_stopwatch_tells_waiting_from_working() -> None:
-    with stopwatch() as watch:
-        time.sleep(0.05)
-    assert watch.seconds >= 0.05
-    assert watch.cpu_seconds < 0.05
 
 
 def test_the_log_is_as_before_when_a_job_ends(tmp_path: Path) -> None:
@@ -132,3 +125,10 @@ def test_what_libraries_log_is_not_printed(tmp_path: Path, capsys: pytest.Captur
         root.handlers = before
     assert "ill-sorted" not in capsys.readouterr().err
     assert "a warning of a library" in (tmp_path / "j.log").read_text()
+
+
+def test_who_imports_softkin_to_use_it_keeps_pythons_own_collections() -> None:
+    told = "import gc, softkin.uncertainty.calibrated_model; print(gc.get_threshold()[0] < 20_000)"
+    told += "; import softkin.core.job; print(gc.get_threshold()[0])"
+    said = subprocess.run([sys.executable, "-c", told], capture_output=True, text=True, check=True).stdout
+    assert said.split() == ["True", "20000"]
