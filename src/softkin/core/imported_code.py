@@ -28,8 +28,9 @@ WITHOUT_EFFECT = {
     "softkin.core.files": "how a file is put in place, whatever it holds",
     "softkin.core.job_params": "notices what was made with other params",
     "softkin.core.job_records": "notices what was not written by softkin",
-    "softkin.core.job": "log and stopwatch of a job",
+    "softkin.core.job": "log and record of a job",
     "softkin.core.strict_json": "refuses what is no JSON, and changes nothing",
+    "softkin.core.terminal": "how what jobs say stands on the terminal",
     "softkin.core.urls": "what of a URL is shown",
 }
 #: Modules that a rule uses only where the configuration or a wildcard names them: registries, whose named entries are

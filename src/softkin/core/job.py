@@ -19,17 +19,13 @@ from softkin.core.damage import check_ends
 from softkin.core.errors import SoftkinError
 from softkin.core.explained import explained
 from softkin.core.job_records import forget_job, record_job
+from softkin.core.terminal import CLOCK, ON_A_SCREEN
 
 logger = logging.getLogger("softkin")
 
 # Python looks for circles of dead objects each 700 that come to those there are, which took a sixth of the imports of a
 # job and a tenth of its figures. Scripts import this before what is large; who imports softkin to use it does not.
 gc.set_threshold(20_000, 10, 10)
-
-#: Environment variable, set while `cli.watching` draws its screen: jobs then write to their logs alone.
-ON_A_SCREEN = "SOFTKIN_ON_A_SCREEN"
-#: The time of day with which lines on the terminal begin.
-CLOCK = "%H:%M:%S"
 
 
 class Discreet(logging.Formatter):

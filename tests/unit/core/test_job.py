@@ -12,7 +12,8 @@ import pytest
 
 from softkin.core.credentials import KEPT
 from softkin.core.errors import SoftkinError
-from softkin.core.job import ON_A_SCREEN, Discreet, job
+from softkin.core.job import Discreet, job
+from softkin.core.terminal import ON_A_SCREEN
 
 CLOCK = r"[0-2]\d:[0-5]\d:[0-5]\d"
 

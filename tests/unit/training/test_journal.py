@@ -9,9 +9,10 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import pytest
-from optuna.trial import Trial
+from optuna.trial import Trial, TrialState
 
 from softkin.core.samples import Params
 from softkin.training.journal import heal, is_of
@@ -167,3 +168,18 @@ def test_a_lock_that_a_killed_process_left_holds_nobody_up(tmp_path: Path, whole
     start = time.monotonic()
     assert_same(run(path), whole[1])
     assert time.monotonic() - start < 20.0
+
+
+def test_each_trial_that_has_ended_is_on_the_disk_at_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    synced: list[int] = []
+    monkeypatch.setattr(os, "fsync", lambda descriptor: synced.append(os.fstat(descriptor).st_size))
+    run(tmp_path / "one.journal")
+    lines = (tmp_path / "one.journal").read_bytes().splitlines(keepends=True)
+    sizes = np.cumsum([len(line) for line in lines]).tolist()
+    states = [json.loads(line).get("state") for line in lines]
+    ended = [
+        size for size, state in zip(sizes, states, strict=True) if state in (TrialState.COMPLETE, TrialState.PRUNED)
+    ]
+    assert len(ended) == SETTINGS.n_trials
+    assert set(ended) <= set(synced)
+    assert len(synced) < len(lines) / 2  # and not each of its records

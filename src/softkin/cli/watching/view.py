@@ -15,7 +15,7 @@ from softkin.cli.watching.job import Job
 from softkin.cli.watching.lines import ended_line, screen_lines
 from softkin.cli.watching.progress import Progress
 from softkin.core.durations import readable
-from softkin.core.job import CLOCK, ON_A_SCREEN
+from softkin.core.terminal import CLOCK, ON_A_SCREEN
 
 #: The name that Snakemake gives the handler that writes to the terminal.
 SNAKEMAKES_OWN = "DefaultStreamHandler"

@@ -18,7 +18,7 @@ import pytest
 from softkin.cli.watching.job import Job
 from softkin.cli.watching.progress import Progress
 from softkin.cli.watching.view import View
-from softkin.core.job import ON_A_SCREEN
+from softkin.core.terminal import ON_A_SCREEN
 
 CLOCK = r"[0-2]\d:[0-5]\d:[0-5]\d"
 
