@@ -9,7 +9,7 @@ from xgboost import Booster, XGBRegressor
 from softkin.core.samples import Array
 
 
-class QuickXGBoost(XGBRegressor):  # type: ignore[misc]
+class QuickXGBoost(XGBRegressor):
     """XGBRegressor whose trees stay as they were grown.
 
     XGBoost ends a fit by writing the model out and reading it back, to free what it was trained on: a quarter of a fit

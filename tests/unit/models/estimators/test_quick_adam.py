@@ -43,7 +43,12 @@ def assert_equal(X: Array, y: Array, *weights: Array, **settings: Any) -> None:
 def test_a_fit_is_scikit_learns_to_the_bit(
     activation: str, widths: list[int], alpha: float, sizes: tuple[int, int, int], seed: int
 ) -> None:
-    settings = {"hidden_layer_sizes": widths, "activation": activation, "alpha": alpha, "learning_rate_init": 0.02}
+    settings: dict[str, Any] = {
+        "hidden_layer_sizes": widths,
+        "activation": activation,
+        "alpha": alpha,
+        "learning_rate_init": 0.02,
+    }
     assert_equal(*rows(*sizes, seed), **settings, max_iter=6, random_state=seed)
 
 

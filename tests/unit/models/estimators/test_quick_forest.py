@@ -51,7 +51,11 @@ def test_trees_are_scikit_learns_to_the_bit(
     bootstrap: bool,
     seed: int,
 ) -> None:
-    settings = {"max_features": max_features, "min_samples_leaf": min_samples_leaf, "bootstrap": bootstrap}
+    settings: dict[str, Any] = {
+        "max_features": max_features,
+        "min_samples_leaf": min_samples_leaf,
+        "bootstrap": bootstrap,
+    }
     assert_equal(*rows(*sizes, seed), max_depth=max_depth, random_state=seed, **settings)
 
 
