@@ -9,11 +9,13 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+import psutil
 import pytest
 
 from tests.conftest import HOUSE
@@ -83,23 +85,52 @@ class House:
             "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}",
         }
 
-    def looking(self, *options: str, more: Path | None = None) -> tuple[int, str]:
-        """Exit status and output of a command line that starts no job, in a process that need not import Snakemake."""
-        command = self.command(*options, more=more)
-        with tempfile.NamedTemporaryFile() as output:
-            request = {"arguments": command[3:], "environment": self.environment(), "folder": str(self.root)}
+    def forked(
+        self,
+        *options: str,
+        cores: int = 2,
+        work: Path | None = None,
+        more: Path | None = None,
+        more_environment: Mapping[str, str] | None = None,
+    ) -> subprocess.CompletedProcess[str]:
+        """The same in a process that need not import Snakemake."""
+        command = self.command(*options, cores=cores, work=work, more=more)
+        with tempfile.NamedTemporaryFile() as output, tempfile.NamedTemporaryFile() as errors:
+            request = {
+                "arguments": command[3:],
+                "environment": self.environment() | dict(more_environment or {}),
+                "folder": str(self.root),
+                "executable": command[0],
+                "output": output.name,
+                "errors": errors.name,
+            }
             forked = forked_snakemake()
             assert forked.stdin is not None
             assert forked.stdout is not None
-            print(json.dumps(request | {"output": output.name}), file=forked.stdin, flush=True)
+            print(json.dumps(request), file=forked.stdin, flush=True)
             status = int(forked.stdout.readline())
-            return status, Path(output.name).read_text()
+            return subprocess.CompletedProcess(
+                command, status, Path(output.name).read_text(), Path(errors.name).read_text()
+            )
+
+    def looking(self, *options: str, more: Path | None = None) -> tuple[int, str]:
+        """Exit status and output of a command line that starts no job."""
+        looked = self.forked(*options, more=more)
+        return looked.returncode, looked.stdout + looked.stderr
 
     def jobs(self, more: Path | None = None) -> list[tuple[str, str]]:
         """(rule, wildcards) of each job that a run would start now."""
         status, output = self.looking("--dry-run", more=more)
         assert status == 0, output
         return jobs_of(output)
+
+
+def processes(work: Path) -> Iterator[psutil.Process]:
+    """The living processes that work in a folder."""
+    for process in psutil.process_iter():
+        with suppress(psutil.NoSuchProcess, psutil.AccessDenied):
+            if process.cwd() == str(work) and process.status() != psutil.STATUS_ZOMBIE:
+                yield process
 
 
 def jobs_of(planned: str) -> list[tuple[str, str]]:

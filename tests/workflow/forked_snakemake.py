@@ -1,14 +1,16 @@
-"""Snakemake, imported once and forked for each command line: a small dry run takes less time than these imports.
+"""Snakemake, imported once and forked for each command line: a small run takes less time than these imports.
 
     python tests/workflow/forked_snakemake.py
 
-Reads a JSON object a line, `arguments` (after `snakemake`), `environment`, `folder` to start in, and `output`, the file
-that gets all that is written; answers each by a line with the exit status. No module of softkin is imported before the
-fork: each command line finds the source that its environment names.
+Reads a JSON object a line, `arguments` (after `snakemake`), `environment`, `folder` to start in, `executable`, the
+interpreter of the jobs, and `output` and `errors`, the files that get what is written; answers each by a line with the
+exit status. No module of softkin is imported before the fork: each command line finds the source that its environment
+names.
 """
 
 from __future__ import annotations
 
+import atexit
 import importlib
 import json
 import os
@@ -22,11 +24,14 @@ IMPORTED = (
 )
 
 
-def run(arguments: list[str], environment: dict[str, str], folder: str, output: str) -> None:
+def run(
+    arguments: list[str], environment: dict[str, str], folder: str, executable: str, output: str, errors: str
+) -> None:
     """Run one command line in this process, which ends with it."""
-    with open(output, "wb") as file:
-        os.dup2(file.fileno(), 1)
-        os.dup2(file.fileno(), 2)
+    for place, (name, mode) in enumerate([(os.devnull, "rb"), (output, "wb"), (errors, "ab")]):
+        with open(name, mode) as file:
+            os.dup2(file.fileno(), place)
+    sys.executable = executable
     os.environ.clear()
     os.environ.update(environment)
     os.chdir(folder)
@@ -46,6 +51,7 @@ def exit_status(request: dict[str, Any]) -> int:
     except SystemExit as ended:
         status = ended.code if isinstance(ended.code, int) else int(ended.code is not None)
     finally:
+        atexit._run_exitfuncs()
         sys.stdout.flush()
         sys.stderr.flush()
         os._exit(status)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import ast
 import builtins
+import gc
 import json
 import multiprocessing
 import sys
@@ -104,13 +105,17 @@ def read_statements(file: Path, module: ast.Module) -> None:
 def main(sources: list[str]) -> None:
     for script in map(Path, sources):
         read_statements(script, ast.parse(script.read_text()))
-    for file in sorted(SOURCE.rglob("*.py")):  # other libraries, once for all processes
+    others: dict[str, None] = {}
+    for file in sorted(SOURCE.rglob("*.py")):
         module = ast.parse(file.read_text())
         read_statements(file, module)
         module.body = [node for node in module.body if isinstance(node, ast.ImportFrom | ast.Import)]
-        for statement in imports(module, of_softkin=False):
-            if not ast.unparse(statement).startswith("from __future__"):
-                exec(ast.unparse(statement), {})
+        others |= dict.fromkeys(map(ast.unparse, imports(module, of_softkin=False)))
+    for statement in others:  # other libraries, once for all processes
+        if not statement.startswith("from __future__"):
+            exec(statement, {})
+    gc.freeze()
+    gc.disable()
     with multiprocessing.get_context("fork").Pool(2, maxtasksperchild=1) as pool:
         print(json.dumps(dict(zip(sources, pool.map(loaded, sources, chunksize=1), strict=True))))
 

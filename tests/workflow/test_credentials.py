@@ -38,7 +38,7 @@ def test_credentials_appear_nowhere(mirror: Path, server: str, tmp_path: Path) -
     (tmp_path / "mirror" / "override.yaml").write_text(yaml.safe_dump(override))
     copy_house(tmp_path / "house")
     house = House(tmp_path / "house", tmp_path / "run", tmp_path / "mirror")
-    done = house.snakemake(
+    done = house.forked(
         "results/finger/raw",
         "results/mlflow_store.json",
         "--keep-going",

@@ -27,7 +27,7 @@ def test_an_edited_file_and_a_deleted_model_are_made_anew(house: House, tmp_path
     before = raw.read_bytes()
     raw.write_bytes(before + b" ")
     (work / "results" / "finger" / "lr" / "paper" / "model.joblib").unlink()
-    done = house.snakemake("results/finger/raw", work=work)
+    done = house.forked("results/finger/raw", work=work)
     assert done.returncode == 0, done.stdout + done.stderr
     assert (
         "softkin: results/finger/raw was changed since it was written (retrieve finger); it is made anew."
@@ -49,7 +49,7 @@ def test_what_had_other_params_is_made_anew_though_snakemakes_records_are_lost(h
     assert "softkin: prepare" not in said
     fewer = ["--config", "max_rows_per_subset=100"]
     table = "results/finger/table.parquet"
-    done = there.snakemake(table, *fewer)
+    done = there.forked(table, *fewer)
     assert done.returncode == 0, done.stdout + done.stderr
     assert "softkin: prepare finger was done with other params (max_rows); it is done anew." in done.stderr
     assert len(pd.read_parquet(there.work / table)) < len(pd.read_parquet(house.work / table))

@@ -141,9 +141,7 @@ def finished(tmp_path_factory: pytest.TempPathFactory, mirror: Path) -> Finished
         for path in made:
             if path.name == MANIFEST:
                 write_manifest(path, [file for file in made if file != path and path.parent in file.parents])
-    recorded = house.snakemake(
-        "--touch", "--forceall", more=configuration
-    )  # the params of each job, the code among them
+    recorded = house.forked("--touch", "--forceall", more=configuration)  # the params of each job, the code among them
     assert recorded.returncode == 0, recorded.stdout + recorded.stderr
     return Finished(house, configuration)
 

@@ -32,7 +32,7 @@ def test_a_dataset_a_model_and_a_method_that_fail_take_the_tables_of_nothing_els
     model = tmp_path / "results" / "elastica_2023_09" / "calibrated_model.joblib"
     model.parent.mkdir(parents=True)
     model.write_text("of an earlier run")
-    done = bad.snakemake("results/report.html", *options)
+    done = bad.forked("results/report.html", *options)
     output = done.stdout + done.stderr
     assert done.returncode != 0
     for part in ("dataset 'finger'", "wrong file: sha256 is", "SOFTKIN_DATA_MIRROR"):

@@ -13,7 +13,6 @@ import subprocess
 import sys
 import time
 from collections import Counter
-from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -29,7 +28,7 @@ from mlflow.entities import ViewType
 from softkin.tracking.artifacts import folder_of
 from softkin.tracking.records import CURRENT, KEY
 from tests.conftest import HOUSE
-from tests.workflow.conftest import House, copy_house
+from tests.workflow.conftest import House, copy_house, processes
 from tests.workflow.test_campaign import SMALL
 
 #: A store of another name than MLflow's own, in folders of names that are hard to quote.
@@ -181,14 +180,6 @@ def wait_for(what: Any, run: subprocess.Popen[bytes], *, must_run: bool = True) 
         assert time.monotonic() < until
         assert not must_run or run.poll() is None, "the run ended before"
         time.sleep(0.02)
-
-
-def processes(work: Path) -> Iterator[psutil.Process]:
-    """The living processes that work in a folder."""
-    for process in psutil.process_iter():
-        with suppress(psutil.NoSuchProcess, psutil.AccessDenied):
-            if process.cwd() == str(work) and process.status() != psutil.STATUS_ZOMBIE:
-                yield process
 
 
 def jobs(work: Path) -> list[psutil.Process]:

@@ -35,7 +35,7 @@ def test_an_edited_file_is_read_again_and_an_untouched_one_is_not(tmp_path: Path
     assert "Traceback" not in missing
 
     file.write_text("\n".join(lines[:401]) + "\n")
-    done = house.snakemake(TABLE, "--printshellcmds", more=more)
+    done = house.forked(TABLE, "--printshellcmds", more=more)
     assert done.returncode == 0, done.stdout + done.stderr
     assert "localrule prepare:" in done.stderr, "Snakemake's own output was asked for"
     assert len(pd.read_parquet(house.work / TABLE)) == 400

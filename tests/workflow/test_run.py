@@ -248,7 +248,7 @@ def test_a_typo_stops_the_run_with_its_likely_spelling(house: House, options: li
 def test_predictions_do_not_depend_on_the_number_of_cores_or_the_run(house: House, tmp_path: Path) -> None:
     """Another folder, one core: the same bits, from which all tables are made."""
     files = [f"results/finger/{model}/{preset}/predictions.parquet" for model in ("gb", "gp") for preset in PRESETS]
-    done = house.snakemake(*files, cores=1, work=tmp_path)
+    done = house.forked(*files, cores=1, work=tmp_path)
     assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
     assert "Error" not in done.stdout + done.stderr
     assert not (tmp_path / "results" / "tables").exists(), "files can be asked for one by one"

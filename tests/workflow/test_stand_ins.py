@@ -25,7 +25,7 @@ def test_a_stand_in_takes_the_place_of_unreachable_data_until_they_return(house:
     (tmp_path / "mirror" / "override.yaml").write_text(yaml.safe_dump(override))
     alone = House(house.root, tmp_path, tmp_path / "mirror")
     small = ["models=[lr]", "presets=[paper]", "interval_methods=[scp_mapie]", "regions=[]"]
-    done = alone.snakemake("results/report.html", "--config", *small)
+    done = alone.forked("results/report.html", "--config", *small)
     output = done.stdout + done.stderr
     assert done.returncode == 0, output[-3000:]
     assert output.count("STAND-INS: finger cannot be reached") == 2

@@ -14,8 +14,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from tests.workflow.conftest import House, copy_house
-from tests.workflow.test_kills import processes
+from tests.workflow.conftest import House, copy_house, processes
 
 pytestmark = pytest.mark.timeout(600)
 #: One preset, whose trials are seen in the log; on a terminal all presets run, so that a redraw falls into a study.
