@@ -7,7 +7,7 @@ import re
 import statistics
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cache
 from graphlib import TopologicalSorter
 from pathlib import Path
@@ -56,13 +56,19 @@ MODULES = {module_of(path): path for path in FILES}
 
 
 @cache
+def nodes(path: Path) -> list[ast.AST]:
+    """All that a file says; it is read once for all tests."""
+    return list(ast.walk(ast.parse(path.read_text())))
+
+
+@cache
 def imports(path: Path) -> frozenset[str]:
     """Modules that a file imports anywhere, for type checkers too; of softkin the modules that define the names."""
-    return frozenset(_imports(ast.parse(path.read_text())))
+    return frozenset(_imports(nodes(path)))
 
 
-def _imports(tree: ast.AST) -> Iterator[str]:
-    for node in ast.walk(tree):
+def _imports(nodes: Iterable[ast.AST]) -> Iterator[str]:
+    for node in nodes:
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom) and node.module:
@@ -73,11 +79,12 @@ def _imports(tree: ast.AST) -> Iterator[str]:
 @cache
 def imports_at_run_time(path: Path) -> frozenset[str]:
     """Modules that a file imports, but for those inside `if TYPE_CHECKING:`."""
-    tree = ast.parse(path.read_text())
-    tree.body = [
-        node for node in tree.body if not (isinstance(node, ast.If) and "TYPE_CHECKING" in ast.dump(node.test))
-    ]
-    return frozenset(_imports(tree))
+    module, *_ = nodes(path)
+    assert isinstance(module, ast.Module)
+    of_types = [node for node in module.body if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.dump(node.test)]
+    if not of_types:
+        return imports(path)
+    return frozenset(_imports(node for part in module.body if part not in of_types for node in ast.walk(part)))
 
 
 def package_of(module: str) -> str | None:
@@ -144,7 +151,7 @@ def test_nobody_asks_which_model_or_dataset_it_is() -> None:
 def test_no_model_is_named_outside_models() -> None:
     names = {*MODELS, *QUANTILE_MODELS}
     for path in [*SCRIPTS, *(path for module, path in MODULES.items() if package_of(module) != "models")]:
-        texts = {node.value for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, ast.Constant)}
+        texts = {node.value for node in nodes(path) if isinstance(node, ast.Constant)}
         assert not texts & names, path
     for path in RULES:
         assert not set(re.findall(r"[\"'](\w+)[\"']", path.read_text())) & names, path
@@ -210,7 +217,7 @@ def test_files_stay_short() -> None:
 
 def test_functions_stay_short_and_take_few_parameters() -> None:
     for path in [*FILES, *SCRIPTS, *(HOUSE / "tools").rglob("*.py")]:
-        for node in ast.walk(ast.parse(path.read_text())):
+        for node in nodes(path):
             if isinstance(node, ast.FunctionDef):
                 arguments = [*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs]
                 parameters = [parameter for parameter in arguments if parameter.arg not in ("self", "cls")]

@@ -187,7 +187,6 @@ def of_its_own_font(frame: pd.DataFrame, results: DatasetResults) -> Figure:
 def test_the_contract_is_broken_by(
     law: Callable[..., None], fault: dict[str, Any], results: DatasetResults, tmp_path: Path
 ) -> None:
+    assert law in LAWS
     with mpl.rc_context(), pytest.raises(AssertionError):
         law("ranking", replace(RANKING, **fault), results, tmp_path)
-    with mpl.rc_context(), pytest.raises(AssertionError):
-        check_figure("ranking", replace(RANKING, **fault), results, tmp_path)
