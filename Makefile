@@ -25,7 +25,7 @@ export XDG_CACHE_HOME := $(CURDIR)/.venv/cache
 export MPLCONFIGDIR := $(CURDIR)/.venv/cache/matplotlib
 endif
 
-.PHONY: help run demo campaign refit schedule prune unlock new-robot test test-workflow test-small-runs test-learning test-units test-contracts other-pythons test-run lint ui store report verify
+.PHONY: help run demo campaign refit schedule prune unlock new-robot test test-parts test-workflow test-small-runs test-learning test-units test-contracts other-pythons test-run lint ui store report verify
 .PHONY: gallery numbers results-page single-rows
 .PHONY: snakemake-report campaigns campaign-slurm coverage standins timings benchmark benchmark-large benchmark-pruning benchmark-shells
 .PHONY: benchmark-figures benchmark-fit-rows benchmark-two-files benchmark-commands benchmark-robots benchmark-many-robots benchmark-recalibration benchmark-choice benchmark-promises
@@ -61,9 +61,12 @@ new-robot: .venv/installed
 	@$(BIN)/python -m softkin.cli.new_robot $${NAME:+--name="$$NAME"} $${HEADER:+--header="$$HEADER"} $${DELIMITER:+--delimiter="$$DELIMITER"} \
 	  $${SHEET:+--sheet="$$SHEET"} $${JOIN:+--join="$$JOIN"} $${ANSWER:+--answer="$$ANSWER"} $${WRITE:+--write} -- "$$FILE" $${POSITIONS:+"$$POSITIONS"}
 
-# All tests but the long ones. Five parts, the longest first, three at a time: those of the workflow wait for processes.
+# All tests but the long ones. Five parts, the longest first, four at a time: those of the workflow wait for processes.
 test: .venv/installed-dev
-	$(MAKE) --no-print-directory -j 3 test-workflow test-small-runs test-learning test-units test-contracts
+	$(MAKE) --no-print-directory -j 4 test-parts
+
+# The same, as many at a time as -j says.
+test-parts: test-workflow test-units test-small-runs test-contracts test-learning
 
 SMALL_RUNS := $(addprefix tests/workflow/test_,credentials.py dependencies.py failed_parts.py own_robot.py watching.py)
 LEARNING := $(addprefix tests/unit/,models training uncertainty)
