@@ -13,12 +13,13 @@ from pathlib import Path
 
 import pytest
 
+from softkin.cli.partial_tables import PARTIAL
 from softkin.cli.redo import UNFINISHED, redo_damaged
 from softkin.core.imported_code import CHOSEN_FROM, WITHOUT_EFFECT, file_of, imported_code, imported_modules
 from softkin.core.job_records import record_job, record_of
 from softkin.core.manifest import MANIFEST, write_manifest
 from tests.conftest import HOUSE
-from tests.workflow.conftest import House, copy_house
+from tests.workflow.conftest import House, copy_house, jobs_of
 
 SCRIPTS = sorted((HOUSE / "workflow" / "scripts").glob("*.py"))
 ENTRIES = sorted(path for registry in CHOSEN_FROM for path in file_of(registry).parent.glob("[!_]*.py"))
@@ -195,3 +196,17 @@ def test_a_file_that_is_not_as_it_was_written_is_made_anew_by_its_model_alone(
         file.write_text("")
         record_of(log).unlink()
         shutil.rmtree(work / UNFINISHED)
+
+
+@pytest.mark.parametrize("complete", [["finger"], []])
+def test_tables_of_what_is_there_score_no_complete_dataset_anew(complete: list[str], finished: Finished) -> None:
+    """As a run asks for them when a job of another dataset has failed; of datasets that are not complete the calibrated
+    model is not read.
+    """
+    told = {PARTIAL: json.dumps({"left_out": {}, "complete": complete})}
+    planned = finished.house.forked(
+        "--dry-run", "results/report.html", more=finished.configuration, more_environment=told
+    )
+    assert planned.returncode == 0, planned.stdout + planned.stderr
+    jobs = {rule for rule, wildcards in jobs_of(planned.stdout + planned.stderr) if "finger" in wildcards}
+    assert jobs == (set() if complete else {"score", "draw_figures"})

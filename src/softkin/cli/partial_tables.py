@@ -26,8 +26,8 @@ RULES = (*OF_A_DATASET, "build_tables", "draw_campaign_figures", "build_report")
 AFTER_THE_TABLES = ("track",)
 #: Jobs of one entry of a key of the configuration.
 OF_ONE = {"fit_model": "models", "fit_ensemble": "ensembles", "fit_quantiles": "quantile_models"}
-#: Set while such tables are made, as JSON: what is `left_out`, by dataset and key of the configuration, and which datasets
-#: are `complete`.
+#: Set while such tables are made, as JSON: what is `left_out`, by dataset and key of the configuration, and datasets
+#: that are `complete`.
 PARTIAL = "SOFTKIN_PARTIAL"
 
 #: Key of the configuration -> names that are left out.
