@@ -99,8 +99,10 @@ def predicted_rows(stored: pd.DataFrame, subsets: Sequence[str], prefix: str = "
     subset by subset.
     """
     wanted = re.compile(rf"{prefix}m\d+_[xyz]")
-    positions = stored[[name for name in stored.columns if wanted.fullmatch(name)]]
-    return np.concatenate([positions[stored["subset"] == subset].to_numpy() for subset in subsets])
+    columns = stored[[name for name in stored.columns if wanted.fullmatch(name)]].to_numpy().T
+    of_subsets = (np.flatnonzero((stored["subset"] == subset).to_numpy(dtype=bool)) for subset in subsets)
+    # Column by column in memory, as pandas stores them: the order decides the last bit of a mean.
+    return np.asarray(np.concatenate([columns.take(rows, axis=1) for rows in of_subsets], axis=1).T)
 
 
 def _microseconds_per_row(estimator: Any, inputs: Array, repeats: int = 5) -> float:
