@@ -25,7 +25,7 @@ export XDG_CACHE_HOME := $(CURDIR)/.venv/cache
 export MPLCONFIGDIR := $(CURDIR)/.venv/cache/matplotlib
 endif
 
-.PHONY: help run demo campaign refit schedule prune unlock new-robot test test-parts test-workflow test-small-runs test-learning test-units test-contracts other-pythons test-run lint ui store report verify
+.PHONY: help run demo campaign refit schedule prune unlock new-robot test test-parts test-workflow test-small-runs test-learning test-units other-pythons test-run lint ui store report verify
 .PHONY: gallery numbers results-page single-rows
 .PHONY: snakemake-report campaigns campaign-slurm coverage standins timings benchmark benchmark-large benchmark-pruning benchmark-shells
 .PHONY: benchmark-figures benchmark-fit-rows benchmark-two-files benchmark-commands benchmark-robots benchmark-many-robots benchmark-recalibration benchmark-choice benchmark-promises
@@ -61,15 +61,15 @@ new-robot: .venv/installed
 	@$(BIN)/python -m softkin.cli.new_robot $${NAME:+--name="$$NAME"} $${HEADER:+--header="$$HEADER"} $${DELIMITER:+--delimiter="$$DELIMITER"} \
 	  $${SHEET:+--sheet="$$SHEET"} $${JOIN:+--join="$$JOIN"} $${ANSWER:+--answer="$$ANSWER"} $${WRITE:+--write} -- "$$FILE" $${POSITIONS:+"$$POSITIONS"}
 
-# All tests but the long ones. Five parts, the longest first, four at a time: those of the workflow wait for processes.
+# All tests but the long ones. Four parts side by side: those of the workflow wait for processes.
 test: .venv/installed-dev
 	$(MAKE) --no-print-directory -j 4 test-parts
 
 # The same, as many at a time as -j says.
-test-parts: test-workflow test-units test-small-runs test-contracts test-learning
+test-parts: test-workflow test-units test-learning test-small-runs
 
 SMALL_RUNS := $(addprefix tests/workflow/test_,credentials.py dependencies.py failed_parts.py own_robot.py watching.py)
-LEARNING := $(addprefix tests/unit/,models training uncertainty)
+LEARNING := $(addprefix tests/,unit/models unit/training unit/uncertainty contract tools)
 
 # The tests of the workflow that read one whole run, which they share.
 test-workflow: .venv/installed-dev
@@ -79,17 +79,13 @@ test-workflow: .venv/installed-dev
 test-small-runs: .venv/installed-dev
 	$(BIN)/pytest -m "not slow" $(SMALL_RUNS)
 
-# The tests of each module that fits models or makes intervals.
+# The tests of each module that fits models or makes intervals, of every entry of a registry, of messages and of pages.
 test-learning: .venv/installed-dev
 	$(BIN)/pytest -m "not slow" $(LEARNING)
 
 # The tests of each other module, and all that have no part of their own.
 test-units: .venv/installed-dev
-	$(BIN)/pytest -m "not slow" --ignore tests/workflow --ignore tests/contract --ignore tests/tools $(addprefix --ignore=,$(LEARNING))
-
-# The tests of every entry of a registry, of messages and of pages.
-test-contracts: .venv/installed-dev
-	$(BIN)/pytest -m "not slow" tests/contract tests/tools
+	$(BIN)/pytest -m "not slow" --ignore tests/workflow $(addprefix --ignore=,$(LEARNING))
 
 # Python 3.12 and 3.13, where they are on this machine: the environment, a plan of the workflow, the tests of `core`.
 other-pythons: .venv/installed

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import hashlib
 import json
 import os
@@ -15,6 +16,9 @@ from hypothesis import settings
 
 from softkin.core.samples import SUBSETS, Samples
 from softkin.data.table import to_table, write_table
+
+# Of what the tests make and import, hardly anything is garbage in circles: looking for it took an eighth of their time.
+gc.set_threshold(1_000_000)
 
 # How long an example takes says nothing of a law: a loaded machine is slow.
 settings.register_profile("softkin", deadline=None)
