@@ -189,12 +189,14 @@ class _Wish:
         if self.robot.failures is not None:  # where a pose may fail its intervals hold failed poses, too
             regular = self.robot._prepared.bounds(inputs, (self.level,), whole)[0][:, self.own]
             regularly = self._stretch(regular, positions, level)
+        is_alike = bool((regularly == regularly[:1]).all())
         for start in range(0, len(off), ROWS_AT_ONCE):
             rows = slice(start, start + ROWS_AT_ONCE)
             distances = _distances(off[rows], stretches[rows], self.errors)
             within[rows] = conformal_limits(distances.T, [level])[0]
             # Failed poses bring no target nearer.
-            by_error = _distances(np.zeros_like(off[rows]), regularly[rows], self.errors)
+            own = regularly[:1] if is_alike else regularly[rows]
+            by_error = _distances(np.zeros_like(own), own, self.errors)
             radius[rows] = conformal_limits(by_error.T, [level])[0]
             near[rows] = 0.0 if self.tolerance is None else (distances <= self.tolerance).sum(axis=1)
         radius = np.where(np.isfinite(radius), radius, 0.0)
