@@ -6,6 +6,7 @@ import fcntl
 import os
 import pty
 import re
+import select
 import signal
 import subprocess
 import termios
@@ -125,8 +126,9 @@ def close_a_terminal(house: House, *options: str) -> None:
     os.close(slave)
     log, written = house.work / "results" / "logs" / "fit_model" / "finger" / "gb.log", b""
     log.unlink()
-    while not log.exists():
-        written += os.read(master, 65536)
+    while not log.exists():  # looked at often: a fit takes about a second, and a screen is drawn as seldom
+        if select.select([master], [], [], 0.01)[0]:
+            written += os.read(master, 65536)
     os.close(master)
     assert run.wait(60) == -signal.SIGHUP, written.decode()[-3000:]
 
