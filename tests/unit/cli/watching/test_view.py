@@ -36,6 +36,16 @@ def jobs(log: Path | None = None) -> Progress:
     return Progress({1: Job("prepare", {"dataset": "finger"}, log=log), 2: Job("tune", {"dataset": "finger"})}, 2, 0.0)
 
 
+def watching(logger: logging.Logger, stream: io.StringIO) -> View:
+    """A view that has started, and whose clock ticks a second at each look."""
+    own: logging.StreamHandler[TextIO] = logging.StreamHandler(stream)
+    logger.addHandler(own)
+    ticks = iter(range(100))
+    view = View(jobs(), own, "softkin test", clock=lambda: float(next(ticks)))
+    view.start(logger)
+    return view
+
+
 def run_of(logger: logging.Logger) -> None:
     """Snakemake's messages of a run in which one job ends and another fails."""
     logger.info("Select jobs to execute...")
@@ -56,11 +66,7 @@ def written_to(master: int) -> str:
 
 def test_a_log_file_gets_plain_lines(logger: logging.Logger) -> None:
     stream = io.StringIO()
-    own: logging.StreamHandler[TextIO] = logging.StreamHandler(stream)
-    logger.addHandler(own)
-    ticks = iter(range(100))
-    view = View(jobs(), own, "softkin test", clock=lambda: float(next(ticks)))
-    view.start(logger)
+    view = watching(logger, stream)
     run_of(logger)
     view.finish(logger)
     logger.info("Complete log: x")
@@ -78,11 +84,7 @@ def test_a_log_file_gets_plain_lines(logger: logging.Logger) -> None:
 def test_jobs_of_a_group_count_from_the_start_of_the_group(logger: logging.Logger) -> None:
     """An executor tells the start of a group by a name of its own, and the end of each of its jobs."""
     stream = io.StringIO()
-    own: logging.StreamHandler[TextIO] = logging.StreamHandler(stream)
-    logger.addHandler(own)
-    ticks = iter(range(100))
-    view = View(jobs(), own, "softkin test", clock=lambda: float(next(ticks)))
-    view.start(logger)
+    view = watching(logger, stream)
     logger.info("Execute 1 jobs...", extra={"event": "job_started", "jobs": ["5d1c"]})
     group = [SimpleNamespace(jobid=1), SimpleNamespace(jobid=2)]
     logger.info("Group job", extra={"event": "group_info", "group_id": "5d1c", "jobs": group})
