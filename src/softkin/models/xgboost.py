@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def build(params: Params, seed: int, threads: int) -> Any:
-    """XGBRegressor(**params), on the residuals of a `trend`."""
+    """QuickXGBoost(**params), on the residuals of a `trend`."""
     from softkin.models.estimators.detrended import detrended
     from softkin.models.estimators.quick_xgboost import QuickXGBoost
 
